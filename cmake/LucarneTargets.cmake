@@ -1,0 +1,44 @@
+# Flags and target helpers shared by all folders.
+#
+# -ffp-contract=off: the same integer deposit gave other bits when the compiler fused a*b+c in one inlining and
+# not in another; with it off the traced path is the same arithmetic everywhere.
+# -fno-math-errno: lets sqrt and rounding compile to instructions instead of library calls. Neither changes a value.
+add_library(lucarne_flags INTERFACE)
+target_compile_options(lucarne_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
+  -ffp-contract=off -fno-math-errno $<$<CONFIG:Release>:-O3>)
+if(LUCARNE_WERROR)
+  target_compile_options(lucarne_flags INTERFACE -Werror)
+endif()
+if(LUCARNE_SANITIZE)
+  target_compile_options(lucarne_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(lucarne_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# lucarne_library(NAME): a static library of every .cpp below the current folder, target lucarne::NAME, headers
+# included as "NAME/file.h" and installed under include/lucarne/NAME.
+function(lucarne_library name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  add_library(lucarne_${name} STATIC ${sources})
+  add_library(lucarne::${name} ALIAS lucarne_${name})
+  set_target_properties(lucarne_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(lucarne_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lucarne>)
+  target_link_libraries(lucarne_${name} PRIVATE $<BUILD_INTERFACE:lucarne_flags>)
+  install(TARGETS lucarne_${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lucarne/${name}
+          FILES_MATCHING PATTERN "*.h")
+endfunction()
+
+# lucarne_test(NAME LIBS…): one GoogleTest program of every .cpp in tests/NAME, its cases known to CTest one by one.
+function(lucarne_test name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(test_${name} ${sources})
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(test_${name} PRIVATE lucarne_flags ${ARGN} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(test_${name} PRIVATE LUCARNE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 600)
+endfunction()

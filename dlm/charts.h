@@ -1,0 +1,41 @@
+// Charts: connected sets of triangles of one material, one-to-one in their own texture rectangle.
+//
+// Charts grow across the edges of one material while (a) every triangle's normal stays within an angle of the chart's
+// seed normal and (b) the orthogonal projection onto the chart's plane stays one-to-one. Adjacency is by position, not
+// by index: vertices are welded within a tolerance relative to the scene, and edges with more than two faces, or with
+// two faces that wind the same way, do not connect (OpenMesh half-edges). Zero-area triangles belong to no chart.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tracer/scene/scene.h"
+
+namespace lucarne {
+
+struct ChartOptions {
+  double maxAngleDegrees = 40;     // largest angle between a triangle's normal and the seed normal
+  double weldTolerance = 1e-6;     // relative to the scene's extent (about one local unit)
+};
+
+struct Chart {
+  std::uint32_t material = 0;
+  bool smooth = false;                  // some triangle has interpolated normals
+  Vec3d normal{};                       // unit plane normal, on the front side
+  Vec3d axisU{}, axisV{};               // unit, axisU × axisV = normal
+  Vec2d size{};                         // extent along axisU, axisV in local units; > 0
+  double area = 0;                      // of its triangles, local units²
+  std::vector<std::uint32_t> triangles; // ascending
+};
+
+struct ChartSet {
+  std::vector<Chart> charts;
+  std::vector<std::uint32_t> chartOfTriangle;        // kNone for degenerate triangles
+  std::vector<std::array<Vec2f, 3>> cornerUv;        // per triangle: place in its chart, local units, inside [0,size]
+};
+
+/// Deterministic: depends on the scene's triangles and options alone. Charts are ordered by their smallest triangle.
+ChartSet growCharts(const Scene& scene, const ChartOptions& options = {});
+
+}  // namespace lucarne
