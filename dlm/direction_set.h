@@ -1,22 +1,24 @@
 // Ω: the global set of light directions, near-uniform on the sphere for any n ≥ 1, and its Voronoi cells.
 //
-// Construction: the n points of a spherical Fibonacci lattice (Swinbank and Purser 2006; offset ½) relaxed by a fixed number
-// of Lloyd steps with exact cell centroids while n is small, then turned by a fixed generic rotation so that no ψ lies in the
-// plane of an axis-aligned floor. ψ points away from the surface, toward the light.
+// Construction: the n points of a spherical Fibonacci lattice (Swinbank and Purser 2006; offset ½) relaxed by a fixed
+// number of Lloyd steps with exact cell centroids while n is small, then turned by the rotation, of a fixed sequence,
+// that keeps them farthest from the planes of axis-aligned floors and walls. Plain arithmetic only: the same bits on
+// every machine. ψ points away from the surface, toward the light.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "base/vec.h"
+#include "dlm/spherical_polygon.h"
 
 namespace lucarne {
 
 /// The part of a cell above a horizon: integrals over {ω in the cell, n·ω > 0}, ω unit, by solid angle.
 struct ClippedCell {
-  double solidAngle = 0;    // ∫ dω, sr
-  Vec3d moment{};           // ∫ ω dω; its direction is the mean light direction
-  double cosIntegral = 0;   // ∫ n·ω dω = n · moment, sr: the irradiance per unit of constant radiance
+  double solidAngle = 0;   // ∫ dω, sr
+  Vec3d moment{};          // ∫ ω dω; its direction is the mean light direction
+  double cosIntegral = 0;  // ∫ n·ω dω = n · moment, sr: the irradiance per unit of constant radiance
   double meanCosine() const { return solidAngle > 0 ? cosIntegral / solidAngle : 0; }
 };
 
@@ -28,7 +30,8 @@ class DirectionSet {
   Vec3d direction(int psi) const { return directions_[static_cast<std::size_t>(psi)]; }
   const std::vector<Vec3d>& directions() const { return directions_; }
 
-  /// The ψ with the largest dot product with `w` (float arithmetic, smallest index on a tie). Exact and O(1) on average.
+  /// The ψ with the largest dot product with `w` (float arithmetic, smallest index on a tie). Exact and O(1) on
+  /// average.
   int nearest(Vec3f w) const;
 
   /// Exact integrals over the cell of ψ above the plane of unit normal `n`; closed forms over spherical polygons.
@@ -39,16 +42,25 @@ class DirectionSet {
   bool reaches(int psi, Vec3d n) const;
 
  private:
-  struct Polygon {  // convex, on the unit sphere, counter-clockwise from outside
-    std::vector<Vec3d> vertices;
+  struct Piece {                 // a convex part of a cell, smaller than a hemisphere
+    std::uint32_t first, count;  // in vertices_
+    SphericalIntegral whole;
+  };
+  struct Cell {
+    SphericalIntegral whole;
+    double coneSine;  // sine of the cell's radius about ψ; 2 if that is not below 90 degrees
   };
   void buildCells();
   void buildLookup();
+  SphericalIntegral above(int psi, Vec3d n) const;
 
   std::vector<Vec3d> directions_;
   std::vector<Vec3f> directionsF_;
-  std::vector<std::vector<Polygon>> cells_;   // each clipped to the eight octants, so that all pieces are < a hemisphere
-  int gridSize_ = 1;                          // octahedral grid of candidate lists
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> firstPiece_;  // of each ψ, into pieces_, and the end
+  std::vector<Piece> pieces_;              // each cell clipped to the eight octants
+  std::vector<Vec3d> vertices_;
+  int gridSize_ = 1;  // octahedral grid of candidate lists
   std::vector<std::uint32_t> gridFirst_;
   std::vector<std::uint16_t> gridCandidates_;
 };
