@@ -13,7 +13,7 @@ namespace {
 // dot products (below 1e-6 in all, w unit) and of w's place in the grid (below 1e-6, times |ψ' − ψ| <= 2).
 constexpr double kMargin = 1e-5;
 
-constexpr int kSmallestGrid = 16, kLargestGrid = 1024, kGridCellsPerDirection = 16;
+constexpr int kSmallestGrid = 32, kLargestGrid = 1024, kGridCellsPerDirection = 16;
 
 // The unit vector at a point of the square [-1, 1]²; the inner diamond is the upper half (z >= 0), the corners fold
 // down.
