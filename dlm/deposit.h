@@ -1,0 +1,155 @@
+// The sink that counts photon hits in tallies.
+//
+// A deposit is a few adds at a random place: nearly all of its cost is the cache miss. So the last splats are held in a
+// ring, their lines prefetched on entry, and added when they leave it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "dlm/tally.h"
+#include "tracer/transport/photon_tracer.h"
+
+namespace lucarne {
+
+enum class LightPart : std::uint8_t { all, direct, indirect };
+
+/// Where each triangle lies in texels, and which sides take its light. Built once, shared by all threads.
+class TexelMap {
+ public:
+  struct alignas(32) Entry {
+    Vec2f st0, e1, e2;             // texel coordinates of corner 0, edges to corners 1 and 2
+    std::uint32_t front, back;     // tally sides, kNone: none
+  };
+  TexelMap(const Scene& scene, const ChartSet& charts, const TexelLayout& layout, const TallyLayout& tallies);
+  const Entry& operator[](std::uint32_t triangle) const { return entries_[triangle]; }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+/// Sums of what the sink stored, in tally units.
+struct DepositSums {
+  FluxSum incident;
+  std::uint64_t storedHits = 0, clamped = 0;
+};
+
+/// One thread's sink. `shared`: other threads add to the same tallies (relaxed atomic adds), else plain adds. Flushed by
+/// flush(), which must be called before the tallies are read.
+template <bool shared>
+class DepositSink {
+ public:
+  DepositSink(const TexelMap& map, const TallyLayout& layout, const DirectionSet& directions, LightPart part, const Tallies& tallies)
+      : map_(map), layout_(layout), directions_(directions), part_(part), light_(tallies.light().data()),
+        statistics_(tallies.statistics().data()) {}
+
+  void hit(const PhotonHit& h) {
+    if (part_ != LightPart::all && (part_ == LightPart::direct) != (h.event == 1)) return;
+    const TexelMap::Entry& entry = map_[h.hit.triangle];
+    const std::uint32_t sideIndex = h.hit.back ? entry.back : entry.front;
+    if (sideIndex == kNone) return;
+    const TallySide& side = layout_.sides[sideIndex];
+    const Vec2f st = entry.st0 + entry.e1 * h.hit.b.x + entry.e2 * h.hit.b.y;
+    const int x = std::clamp(static_cast<int>(st.x), 0, side.width - 1), y = std::clamp(static_cast<int>(st.y), 0, side.height - 1);
+    const auto texel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(side.width) + static_cast<std::uint64_t>(x);
+    const MemberSet& set = layout_.memberSets[side.memberSet];
+    const std::uint64_t rank = set.members.empty() ? 0 : set.rank[static_cast<std::size_t>(directions_.nearest(h.wi))];
+    splat(side.firstLight + rank * side.texelCount() + texel, side.firstTexel + texel, h);
+  }
+
+  void endPhoton() {
+    // One photon may come back to a texel; its share is squared as a whole.
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      if (path_[i].texel == kTaken) continue;
+      float sum = path_[i].luminance;
+      for (std::size_t j = i + 1; j < path_.size(); ++j) {
+        if (path_[j].texel != path_[i].texel) continue;
+        sum += path_[j].luminance;
+        path_[j].texel = kTaken;
+      }
+      const float m2 = std::min(sum * sum, kLargestSquare);
+      std::int64_t* p = statistics_ + path_[i].texel * kStatisticsChannels;
+      add(p, 1);
+      add(p + 1, roundUnits(m2, path_[i].bits));
+    }
+    path_.clear();
+  }
+
+  void flush() {
+    for (Pending& p : ring_) {
+      apply(p);
+      p.at = nullptr;
+    }
+  }
+  const DepositSums& sums() const { return sums_; }
+
+ private:
+  static constexpr std::uint64_t kTaken = ~std::uint64_t{0};
+  static constexpr float kLargestSquare = 0x1p38f;  // times 2^24 still fits 63 bits
+  struct Pending {
+    std::int64_t* at = nullptr;
+    std::array<std::int64_t, 3> units{};
+  };
+  struct PathHit {
+    std::uint64_t texel;
+    float luminance;
+    std::uint32_t bits;
+  };
+
+  /// v in fixed point, rounded up with the probability of the fraction, so that small values are kept on average.
+  static std::int64_t roundUnits(float v, std::uint32_t bits) {
+    return static_cast<std::int64_t>(static_cast<double>(v) * static_cast<double>(kFixedPointOne) + bits * 0x1p-32);
+  }
+  static void add(std::int64_t* p, std::int64_t v) {
+    if constexpr (shared)
+      std::atomic_ref<std::int64_t>(*p).fetch_add(v, std::memory_order_relaxed);
+    else
+      *p += v;
+  }
+
+  /// Light as the shading normal receives it (see shadingReception), clamped.
+  Rgb received(const PhotonHit& h) {
+    if (h.ns == h.n) return h.beta;
+    float factor = shadingReception(h.wi, h.n, h.ns);
+    if (factor > kLargestShadingCorrection) {
+      factor = kLargestShadingCorrection;
+      ++sums_.clamped;
+    }
+    return h.beta * factor;
+  }
+
+  void splat(std::uint64_t entry, std::uint64_t texel, const PhotonHit& h) {
+    const auto bits = h.sampler.words(h.event, Stream::deposit);
+    const Rgb value = received(h);
+    Pending& slot = ring_[head_];
+    head_ = (head_ + 1) % ring_.size();
+    apply(slot);
+    slot.at = light_ + entry * kLightChannels;
+    __builtin_prefetch(slot.at, 1);
+    __builtin_prefetch(slot.at + 2, 1);
+    __builtin_prefetch(statistics_ + texel * kStatisticsChannels, 1);
+    slot.units = {roundUnits(value.x, bits[0]), roundUnits(value.y, bits[1]), roundUnits(value.z, bits[2])};
+    for (std::size_t c = 0; c < 3; ++c) sums_.incident.units[c] += slot.units[c];
+    ++sums_.storedHits;
+    path_.push_back({texel, luminance(value), bits[3]});
+  }
+  static void apply(const Pending& p) {
+    if (p.at == nullptr) return;
+    for (std::size_t c = 0; c < 3; ++c) add(p.at + c, p.units[c]);
+  }
+
+  const TexelMap& map_;
+  const TallyLayout& layout_;
+  const DirectionSet& directions_;
+  LightPart part_;
+  std::int64_t* light_;
+  std::int64_t* statistics_;
+  std::array<Pending, 16> ring_{};
+  std::size_t head_ = 0;
+  std::vector<PathHit> path_;
+  DepositSums sums_;
+};
+
+}  // namespace lucarne

@@ -1,0 +1,68 @@
+// Tallies: where the light of photons is counted. Integers in fixed point, so that sums have no order.
+//
+// Light:      [chart side][ψ][y][x][r, g, b]   Σ beta, in units of 2^-24 of the scene's emitted flux
+// Statistics: [chart side][y][x][count, m2]    photons that fell into the texel, and Σ (luminance of a photon's whole
+//             share of the texel)², per photon, since one path may come back to a texel; units of 2^-24.
+// Canonical order is memory order, light first; content_hash is XXH3-128 over it, little-endian.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/hash.h"
+#include "base/huge_buffer.h"
+#include "dlm/charts.h"
+#include "dlm/direction_set.h"
+#include "dlm/texel_layout.h"
+
+namespace lucarne {
+
+inline constexpr std::uint64_t kLightChannels = 3, kStatisticsChannels = 2;
+
+/// Members of Ω on one side: shared by all sides with the same set.
+struct MemberSet {
+  std::vector<std::uint16_t> members;  // ψ of rank k, ascending; empty: irradiance only, one map that takes all
+  // Rank by ψ. A ψ that is no member (a hit within rounding of the horizon) goes to the member nearest to it.
+  std::vector<std::uint16_t> rank;
+  std::uint64_t mapCount() const { return members.empty() ? 1 : members.size(); }
+};
+
+struct TallySide {
+  std::uint32_t chart = 0;
+  bool back = false;
+  int width = 0, height = 0;
+  std::uint32_t memberSet = 0;
+  std::uint64_t firstLight = 0;  // in (texel, ψ) entries
+  std::uint64_t firstTexel = 0;
+  std::uint64_t texelCount() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
+};
+
+struct TallyLayout {
+  std::vector<TallySide> sides;
+  std::vector<std::uint32_t> frontSide, backSide;  // by chart; kNone: no maps
+  std::vector<MemberSet> memberSets;
+  std::uint64_t lightEntries = 0, texels = 0;
+  std::uint64_t bytes() const { return 8 * (lightEntries * kLightChannels + texels * kStatisticsChannels); }
+  const MemberSet& membersOf(const TallySide& side) const { return memberSets[side.memberSet]; }
+};
+
+/// `keepAllDirections`: the full set also on sides whose material needs none.
+TallyLayout planTallies(const Scene& scene, const ChartSet& charts, const TexelLayout& layout, const DirectionSet& directions,
+                        bool keepAllDirections = false);
+
+class Tallies {
+ public:
+  explicit Tallies(const TallyLayout& layout)
+      : light_(layout.lightEntries * kLightChannels), statistics_(layout.texels * kStatisticsChannels) {}
+  std::span<std::int64_t> light() const { return light_.span(); }
+  std::span<std::int64_t> statistics() const { return statistics_.span(); }
+  void add(const Tallies& other);
+  Hash128 contentHash() const;
+
+ private:
+  HugeBuffer<std::int64_t> light_, statistics_;
+};
+
+}  // namespace lucarne

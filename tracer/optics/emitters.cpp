@@ -1,0 +1,190 @@
+#include "tracer/optics/emitters.h"
+
+#include <cmath>
+
+#include "base/math.h"
+#include "tracer/optics/warp.h"
+
+namespace lucarne {
+namespace {
+
+constexpr double kPiD = 3.14159265358979323846;
+
+/// Falloff of a spot at cosine c: ((c − cosOuter)/(cosInner − cosOuter))², 1 inside the inner cone (KHR_lights_punctual).
+/// Its flux per unit of intensity is 2π[(1 − ci) + (ci − co)/3].
+double spotFlux(const Light& l) { return 2 * kPiD * ((1 - l.cosInner) + (l.cosInner - l.cosOuter) / 3); }
+
+/// Cosine distributed like the falloff, so that every photon carries the same flux: a share of the inner cone uniform in
+/// cosine, the rest by inverting the cube of the ramp.
+double sampleSpotCosine(const Light& l, double u) {
+  const double inner = 1 - l.cosInner, ramp = (l.cosInner - l.cosOuter) / 3;
+  const double x = u * (inner + ramp);
+  if (x < inner || ramp <= 0) return 1 - std::min(x, inner);
+  return l.cosOuter + (l.cosInner - l.cosOuter) * cbrt(std::max(0.0, 1 - (x - inner) / ramp));
+}
+
+Vec2f at(const std::array<Vec2f, 3>& corner, Vec2f b) {
+  return corner[0] * (1 - b.x - b.y) + corner[1] * b.x + corner[2] * b.y;
+}
+
+/// The n² congruent pieces of a triangle cut n times along each edge, as corners in its barycentrics.
+template <class F>
+void forEachPiece(int n, F&& f) {
+  const float h = 1.f / static_cast<float>(n);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      const float x = static_cast<float>(i) * h, y = static_cast<float>(j) * h;
+      f(std::array<Vec2f, 3>{Vec2f{x, y}, Vec2f{x + h, y}, Vec2f{x, y + h}});
+      if (i + j + 1 < n) f(std::array<Vec2f, 3>{Vec2f{x + h, y + h}, Vec2f{x, y + h}, Vec2f{x + h, y}});
+    }
+  }
+}
+
+/// Sixteen centroids of a regular cut: the quadrature for the mean radiance of a piece.
+template <class F>
+double quadrature(const std::array<Vec2f, 3>& piece, F&& value) {
+  double sum = 0;
+  forEachPiece(4, [&](const std::array<Vec2f, 3>& cell) {
+    sum += value(at(piece, at(cell, {1.f / 3, 1.f / 3})));
+  });
+  return sum / 16;
+}
+
+constexpr std::array<Vec2f, 3> kWholeTriangle{Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0, 1}};
+
+}  // namespace
+
+EmitterTable::EmitterTable(const Scene& scene, const SurfaceTable& surfaces) : scene_(&scene), surfaces_(&surfaces) {
+  Box box;
+  for (const Triangle& t : scene.triangles)
+    for (const std::uint32_t v : t.v) box.add(Vec3d(scene.positions[v]));
+  if (!box.empty()) {
+    center_ = box.center();
+    radius_ = 0.5 * length(box.extent()) * (1 + 1e-4);  // a little more, for rounding
+  }
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+    if (scene.materials[scene.triangles[i].material].emits()) addTriangle(i);
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) addLight(i);
+  buildTable();
+}
+
+int EmitterTable::subdivisions(std::uint32_t triangle) const {
+  const Material& m = scene_->materials[scene_->triangles[triangle].material];
+  if (!m.emissiveTexture || scene_->textures[m.emissiveTexture.texture].image == kNone) return 1;
+  const auto& set = m.emissiveTexture.uvSet == 0 ? scene_->uv0 : scene_->uv1;
+  if (set.empty()) return 1;
+  const Image& image = scene_->images[scene_->textures[m.emissiveTexture.texture].image];
+  const Triangle& t = scene_->triangles[triangle];
+  float longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Vec2f d = set[t.v[(k + 1) % 3]] - set[t.v[k]];
+    const Vec2f e{dot(m.emissiveTexture.rowU, d) * static_cast<float>(image.width),
+                  dot(m.emissiveTexture.rowV, d) * static_cast<float>(image.height)};
+    longest = std::max(longest, std::sqrt(dot(e, e)));
+  }
+  constexpr float kTexelsAPiece = 4, kMostCuts = 256;
+  return static_cast<int>(std::clamp(std::ceil(longest / kTexelsAPiece), 1.f, kMostCuts));
+}
+
+void EmitterTable::addTriangle(std::uint32_t triangle) {
+  const double s = scene_->frame.scale;
+  const double area = 0.5 * length(scene_->scaledNormal(triangle)) * s * s;
+  if (!(area > 0)) return;
+  const double sides = surfaces_->doubleSided(triangle) ? 2 : 1;
+  const auto radiance = [&](Vec2f b) { return static_cast<double>(mean(surfaces_->emission(triangle, b))); };
+  const int n = subdivisions(triangle);
+  std::vector<Emitter> pieces;
+  double total = 0;
+  forEachPiece(n, [&](const std::array<Vec2f, 3>& corners) {
+    const double value = n == 1 ? quadrature(kWholeTriangle, radiance) : quadrature(corners, radiance);
+    pieces.push_back({value, triangle, kNone, corners, area / (static_cast<double>(n) * n)});
+    total += value;
+  });
+  if (!(total > 0)) return;
+  // A tenth of the weight is spread evenly, so that no piece whose light slipped through the quadrature is left out.
+  const double even = total / static_cast<double>(pieces.size());
+  for (Emitter& e : pieces) {
+    const double value = pieces.size() == 1 ? e.flux : 0.9 * e.flux + 0.1 * even;
+    e.flux = sides * kPiD * e.area * value;
+    emitters_.push_back(e);
+  }
+}
+
+void EmitterTable::addLight(std::uint32_t index) {
+  const Light& l = scene_->lights[index];
+  const double intensity = mean(Rgbd(l.intensity));
+  const double metres = radius_ * scene_->frame.scale;
+  double flux = 0;
+  switch (l.kind) {
+    case LightKind::point: flux = 4 * kPiD * intensity; break;
+    case LightKind::spot: flux = spotFlux(l) * intensity; break;
+    case LightKind::directional: flux = kPiD * metres * metres * intensity; break;
+  }
+  if (!(flux > 0)) {
+    dark_.push_back(l.name);
+    return;
+  }
+  emitters_.push_back({flux, kNone, index, {}, 0});
+}
+
+void EmitterTable::buildTable() {
+  double sum = 0;
+  for (const Emitter& e : emitters_) cumulative_.push_back(sum += e.flux);
+  totalFlux_ = sum;
+  for (double& c : cumulative_) c /= sum;
+  std::uint32_t i = 0;
+  for (std::size_t k = 0; k < cumulative_.size(); ++k) {
+    const double u = static_cast<double>(k) / static_cast<double>(cumulative_.size());
+    while (i + 1 < cumulative_.size() && cumulative_[i] <= u) ++i;
+    guide_.push_back(i);
+  }
+}
+
+std::size_t EmitterTable::pick(double u) const {
+  const std::size_t n = cumulative_.size();
+  std::size_t i = guide_[std::min(static_cast<std::size_t>(u * static_cast<double>(n)), n - 1)];
+  while (i + 1 < n && cumulative_[i] <= u) ++i;
+  return i;
+}
+
+EmittedPhoton EmitterTable::sample(const EmissionSample& u) const {
+  const Emitter& e = emitters_[pick(u.pick)];
+  return e.triangle != kNone ? emitFromTriangle(e, u) : emitFromLight(e, u);
+}
+
+/// Position pdf 1/area, direction pdf cos/π, side pdf 1/sides, piece pdf flux/total:
+/// beta = Le·cos / (pdf) / total = Le · π · area · sides / flux.
+EmittedPhoton EmitterTable::emitFromTriangle(const Emitter& e, const EmissionSample& u) const {
+  const Vec2f b = at(e.bary, sampleTriangle(u.position));
+  const bool twoSided = surfaces_->doubleSided(e.triangle);
+  const Vec3d scaled = scene_->scaledNormal(e.triangle);
+  Vec3f n(scaled / length(scaled));
+  if (twoSided && u.side < 0.5f) n = -n;
+  const double factor = (twoSided ? 2 : 1) * kPiD * e.area / e.flux;
+  const Vec3d p0(scene_->corner(e.triangle, 0)), p1(scene_->corner(e.triangle, 1)), p2(scene_->corner(e.triangle, 2));
+  const Vec3d p = p0 + (p1 - p0) * static_cast<double>(b.x) + (p2 - p0) * static_cast<double>(b.y);
+  const Vec3f direction = Frame<float>(n).toWorld(sampleCosineHemisphere(u.direction));
+  return {p, direction, Rgb(Rgbd(surfaces_->emission(e.triangle, b)) * factor), e.triangle, n};
+}
+
+EmittedPhoton EmitterTable::emitFromLight(const Emitter& e, const EmissionSample& u) const {
+  const Light& l = scene_->lights[e.light];
+  const Rgb beta(Rgbd(l.intensity) * (1 / mean(Rgbd(l.intensity))));
+  const Frame<float> frame{Vec3f(l.direction)};
+  switch (l.kind) {
+    case LightKind::point:
+      return {l.position, sampleSphere(u.direction), beta, kNone, {}};
+    case LightKind::spot: {
+      const auto c = static_cast<float>(sampleSpotCosine(l, static_cast<double>(u.direction.x)));
+      return {l.position, normalize(frame.toWorld(directionAround(c, u.direction.y))), beta, kNone, {}};
+    }
+    case LightKind::directional:
+      break;
+  }
+  // From a disc that just covers the scene's bounding sphere, upstream of it.
+  const Vec2f d = sampleDisc(u.position);
+  const Vec3d offset(frame.toWorld({d.x, d.y, -1.f}));
+  return {center_ + offset * radius_, Vec3f(l.direction), beta, kNone, {}};
+}
+
+}  // namespace lucarne

@@ -1,0 +1,59 @@
+#include "tracer/optics/surface.h"
+
+#include "tracer/optics/ggx.h"
+#include "tracer/optics/texture.h"
+
+namespace lucarne {
+namespace {
+
+Rgb clampUnit(Rgb c) { return {std::clamp(c.x, 0.f, 1.f), std::clamp(c.y, 0.f, 1.f), std::clamp(c.z, 0.f, 1.f)}; }
+Rgb mix(Rgb a, Rgb b, float t) { return a * (1 - t) + b * t; }
+
+}  // namespace
+
+Bsdf makeBsdf(const Material& material, Rgb baseColor, float metallic, float roughness) {
+  metallic = std::clamp(metallic, 0.f, 1.f);
+  roughness = std::clamp(roughness, 0.f, 1.f);
+  baseColor = clampUnit(baseColor);
+  const float specular = std::clamp(material.specular, 0.f, 1.f);
+  const float r = (material.ior - 1) / (material.ior + 1);
+  const Rgb dielectric = clampUnit(material.specularColor * (r * r)) * specular;
+  Bsdf bsdf;
+  bsdf.diffuse = baseColor * (1 - metallic);
+  bsdf.f0 = mix(dielectric, baseColor, metallic);
+  bsdf.f90 = Rgb(specular * (1 - metallic) + metallic);
+  bsdf.alpha = std::max(roughness * roughness, kMinAlpha);
+  return bsdf;
+}
+
+SurfaceTable::SurfaceTable(const Scene& scene) : scene_(&scene) {
+  for (const Material& m : scene.materials) {
+    entries_.push_back({makeBsdf(m, m.baseColor, m.metallic, m.roughness),
+                        bool(m.baseColorTexture) || bool(m.metallicRoughnessTexture), m.doubleSided});
+  }
+}
+
+Vec2f SurfaceTable::uv(const TextureUse& use, std::uint32_t triangle, Vec2f b) const {
+  const auto& set = use.uvSet == 0 ? scene_->uv0 : scene_->uv1;
+  if (set.empty()) return {};
+  const Triangle& t = scene_->triangles[triangle];
+  return set[t.v[0]] * (1 - b.x - b.y) + set[t.v[1]] * b.x + set[t.v[2]] * b.y;
+}
+
+Bsdf SurfaceTable::bsdf(std::uint32_t triangle, Vec2f b) const {
+  const std::uint32_t material = scene_->triangles[triangle].material;
+  const Entry& entry = entries_[material];
+  if (!entry.textured) return entry.constant;
+  const Material& m = scene_->materials[material];
+  const Rgb base = m.baseColor * lookUp(*scene_, m.baseColorTexture, uv(m.baseColorTexture, triangle, b), Encoding::srgb);
+  const Rgb mr = lookUp(*scene_, m.metallicRoughnessTexture, uv(m.metallicRoughnessTexture, triangle, b), Encoding::linear);
+  return makeBsdf(m, base, m.metallic * mr.z, m.roughness * mr.y);
+}
+
+Rgb SurfaceTable::emission(std::uint32_t triangle, Vec2f b) const {
+  const Material& m = scene_->materials[scene_->triangles[triangle].material];
+  if (!m.emissiveTexture) return m.emissive;
+  return m.emissive * lookUp(*scene_, m.emissiveTexture, uv(m.emissiveTexture, triangle, b), Encoding::srgb);
+}
+
+}  // namespace lucarne

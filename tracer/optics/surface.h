@@ -1,0 +1,37 @@
+// From a material and a place on it to the BSDF and the emission there.
+#pragma once
+
+#include <vector>
+
+#include "tracer/optics/bsdf.h"
+#include "tracer/scene/scene.h"
+
+namespace lucarne {
+
+/// The BSDF of a material from its factors times the looked-up texture values.
+Bsdf makeBsdf(const Material& material, Rgb baseColor, float metallic, float roughness);
+
+/// Materials with their constant parts worked out once, so that an untextured hit costs a copy.
+class SurfaceTable {
+ public:
+  explicit SurfaceTable(const Scene& scene);
+
+  /// BSDF at barycentrics (b1, b2) of a triangle.
+  Bsdf bsdf(std::uint32_t triangle, Vec2f b) const;
+  bool doubleSided(std::uint32_t triangle) const { return entries_[scene_->triangles[triangle].material].doubleSided; }
+  /// Emitted radiance in cd/m² at barycentrics of a triangle, on each side that emits.
+  Rgb emission(std::uint32_t triangle, Vec2f b) const;
+
+ private:
+  struct Entry {
+    Bsdf constant;
+    bool textured = false;
+    bool doubleSided = false;
+  };
+  Vec2f uv(const TextureUse& use, std::uint32_t triangle, Vec2f b) const;
+
+  const Scene* scene_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace lucarne

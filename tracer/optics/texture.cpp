@@ -1,0 +1,60 @@
+#include "tracer/optics/texture.h"
+
+#include <cmath>
+
+#include "base/math.h"
+
+namespace lucarne {
+namespace {
+
+/// Index of texel i on an axis of n texels.
+int wrapIndex(int i, int n, Wrap wrap) {
+  switch (wrap) {
+    case Wrap::clampToEdge:
+      return std::clamp(i, 0, n - 1);
+    case Wrap::mirroredRepeat: {
+      const int m = ((i % (2 * n)) + 2 * n) % (2 * n);
+      return m < n ? m : 2 * n - 1 - m;
+    }
+    case Wrap::repeat:
+      break;
+  }
+  return ((i % n) + n) % n;
+}
+
+/// Continuous coordinate in texels, brought near the image first so that huge coordinates cannot overflow an int.
+float toTexels(float u, int n, Wrap wrap) {
+  if (!std::isfinite(u)) return 0;
+  if (wrap == Wrap::clampToEdge) u = std::clamp(u, -1.f, 2.f);
+  else u -= 2.f * std::floor(u * 0.5f);
+  return u * static_cast<float>(n);
+}
+
+Rgb texel(const Image& image, int x, int y, Encoding encoding) {
+  const auto* p = image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                           static_cast<std::size_t>(x));
+  if (encoding == Encoding::srgb) return {srgbToLinear(p[0]), srgbToLinear(p[1]), srgbToLinear(p[2])};
+  return Rgb{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])} * (1.f / 255.f);
+}
+
+}  // namespace
+
+Rgb lookUp(const Scene& scene, const TextureUse& use, Vec2f uv, Encoding encoding) {
+  if (!use) return Rgb(1.f);
+  const Texture& texture = scene.textures[use.texture];
+  if (texture.image == kNone) return Rgb(1.f);
+  const Image& image = scene.images[texture.image];
+  const Vec2f st = Vec2f{dot(use.rowU, uv), dot(use.rowV, uv)} + use.offset;
+  const float shift = texture.nearest ? 0.f : 0.5f;
+  const float x = toTexels(st.x, image.width, texture.wrapS) - shift, y = toTexels(st.y, image.height, texture.wrapT) - shift;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  const int ix = wrapIndex(x0, image.width, texture.wrapS), iy = wrapIndex(y0, image.height, texture.wrapT);
+  if (texture.nearest) return texel(image, ix, iy, encoding);
+  const int jx = wrapIndex(x0 + 1, image.width, texture.wrapS), jy = wrapIndex(y0 + 1, image.height, texture.wrapT);
+  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+  const Rgb top = texel(image, ix, iy, encoding) * (1 - fx) + texel(image, jx, iy, encoding) * fx;
+  const Rgb bottom = texel(image, ix, jy, encoding) * (1 - fx) + texel(image, jx, jy, encoding) * fx;
+  return top * (1 - fy) + bottom * fy;
+}
+
+}  // namespace lucarne
