@@ -1,0 +1,34 @@
+// Resolve: tallies become light maps.
+//
+//   value(t) = Σ k(t,t')·tally(t') / Σ k(t,t')·area(t')
+//
+// area(t') is the surface inside texel t'. A constant irradiance E gives tallies E·area(t') on average, hence value E at
+// every texel up to the chart's edge. Texels without surface but within the kernel of some are extrapolated by the same formula;
+// the others copy the nearest that has a value. The physical scale enters here, once, in double: one tally unit is
+// 2^-24 · emitted flux / photons.
+#pragma once
+
+#include "dlm/kernel.h"
+#include "dlm/light_maps.h"
+#include "dlm/tally.h"
+
+namespace lucarne {
+
+struct ResolveInput {
+  const Scene& scene;
+  const ChartSet& charts;
+  const TexelLayout& layout;
+  const TallyLayout& tallyLayout;
+  const Tallies& tallies;
+  int directionCount;
+  double emittedFlux;     // lm: EmitterTable::totalFlux()
+  std::uint64_t photons;  // traced; 0 gives black maps
+};
+
+/// Everything of LightMaps but the place in the atlas.
+LightMaps resolve(const ResolveInput& input, const KernelOptions& kernel);
+
+/// Flux-weighted estimated relative error of the irradiance: Σ area·σ / Σ area·E over all lit texels.
+double estimatedRelativeError(const LightMaps& maps, const ChartSet& charts, const TexelLayout& layout);
+
+}  // namespace lucarne

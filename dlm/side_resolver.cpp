@@ -1,0 +1,97 @@
+#include "dlm/side_resolver.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace lucarne {
+
+template <class F>
+void SideResolver::forNeighbours(int x, int y, F&& f) const {
+  const int r = kernel_.radius;
+  for (int v = std::max(0, y - r); v <= std::min(height_ - 1, y + r); ++v) {
+    for (int u = std::max(0, x - r); u <= std::min(width_ - 1, x + r); ++u)
+      f(static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u), kernel_(u - x) * kernel_(v - y));
+  }
+}
+
+SideResolver::SideResolver(int width, int height, std::span<const double> area, const Kernel& kernel)
+    : width_(width), height_(height), kernel_(kernel) {
+  LUCARNE_CHECK_EQ(area.size(), static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  inverseArea_.resize(area.size());
+  std::size_t t = 0;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x, ++t) {
+      double sum = 0;
+      forNeighbours(x, y, [&](std::size_t n, double k) { sum += k * area[n]; });
+      inverseArea_[t] = sum > 0 ? 1 / sum : 0;
+    }
+  }
+  findSources();
+}
+
+/// Breadth first from the texels with a value, so that each of the others finds a nearest one.
+void SideResolver::findSources() {
+  source_.assign(inverseArea_.size(), ~std::uint32_t{0});
+  std::vector<std::uint32_t> queue;
+  for (std::uint32_t t = 0; t < source_.size(); ++t) {
+    if (inverseArea_[t] <= 0) continue;
+    source_[t] = t;
+    queue.push_back(t);
+  }
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const int x = static_cast<int>(queue[head]) % width_, y = static_cast<int>(queue[head]) / width_;
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (x + dx < 0 || x + dx >= width_ || y + dy < 0 || y + dy >= height_) continue;
+      const auto n = static_cast<std::uint32_t>((y + dy) * width_ + x + dx);
+      if (source_[n] != ~std::uint32_t{0}) continue;
+      source_[n] = source_[queue[head]];
+      queue.push_back(n);
+    }
+  }
+}
+
+template <class T>
+void SideResolver::spread(std::vector<T>& values) const {
+  for (std::size_t t = 0; t < values.size(); ++t)
+    if (source_[t] != t && source_[t] != ~std::uint32_t{0}) values[t] = values[source_[t]];
+}
+
+std::vector<Rgbd> SideResolver::filterRgb(std::span<const std::int64_t> units) const {
+  std::vector<Rgbd> values(inverseArea_.size());
+  std::size_t t = 0;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x, ++t) {
+      if (inverseArea_[t] <= 0) continue;
+      Rgbd sum{};
+      forNeighbours(x, y, [&](std::size_t n, double k) {
+        const std::int64_t* p = units.data() + 3 * n;
+        sum += Rgbd{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} * k;
+      });
+      values[t] = sum * inverseArea_[t];
+    }
+  }
+  spread(values);
+  return values;
+}
+
+std::vector<double> SideResolver::filterSquares(std::span<const std::int64_t> pairs, int channel) const {
+  std::vector<double> values(inverseArea_.size());
+  std::size_t t = 0;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x, ++t) {
+      if (inverseArea_[t] <= 0) continue;
+      double sum = 0;
+      forNeighbours(x, y, [&](std::size_t n, double k) {
+        sum += k * k * static_cast<double>(pairs[2 * n + static_cast<std::size_t>(channel)]);
+      });
+      values[t] = sum * inverseArea_[t] * inverseArea_[t];
+    }
+  }
+  spread(values);
+  return values;
+}
+
+}  // namespace lucarne

@@ -1,0 +1,35 @@
+// The weights of one chart side: kernel sums over area, and where texels without surface take their value from.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dlm/kernel.h"
+#include "base/vec.h"
+
+namespace lucarne {
+
+class SideResolver {
+ public:
+  /// `area`: surface in each of the width × height texels, any unit.
+  SideResolver(int width, int height, std::span<const double> area, const Kernel& kernel);
+
+  /// Per texel: (Σ k·units(t')) / (Σ k·area(t')) per channel, `units` interleaved [texel][channels].
+  std::vector<Rgbd> filterRgb(std::span<const std::int64_t> units) const;
+  /// Per texel: Σ k²·units(t') over the square of Σ k·area(t'), of one channel of interleaved pairs.
+  std::vector<double> filterSquares(std::span<const std::int64_t> pairs, int channel) const;
+
+ private:
+  template <class F>
+  void forNeighbours(int x, int y, F&& f) const;
+  template <class T>
+  void spread(std::vector<T>& values) const;
+  void findSources();
+
+  int width_, height_;
+  const Kernel& kernel_;
+  std::vector<double> inverseArea_;    // 1 / Σ k·area; 0: no surface within the kernel
+  std::vector<std::uint32_t> source_;  // texel to copy from; itself where it has a value
+};
+
+}  // namespace lucarne
