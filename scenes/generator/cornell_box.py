@@ -60,8 +60,8 @@ def _ring(outer, inner):
 
 
 def _block(height, footprint):
-    """Top and sides; the bottom stands on the floor. The footprint (x, z) is clockwise seen from +y's tip down."""
+    """Top and sides; the bottom stands on the floor. The footprint (x, z) is counter-clockwise seen from above."""
     bottom = [(x, 0.0, z) for x, z in footprint]
     top = [(x, height, z) for x, z in footprint]
-    sides = [(bottom[(i + 1) % 4], bottom[i], top[i], top[(i + 1) % 4]) for i in range(4)]
+    sides = [(bottom[i], bottom[(i + 1) % 4], top[(i + 1) % 4], top[i]) for i in range(4)]
     return [tuple(top)] + sides
