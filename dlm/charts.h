@@ -17,6 +17,7 @@ namespace lucarne {
 struct ChartOptions {
   double maxAngleDegrees = 40;     // largest angle between a triangle's normal and the seed normal
   double weldTolerance = 1e-6;     // relative to the scene's extent (about one local unit)
+  double creaseAngleDegrees = 20;  // flat-shaded triangles that meet at more than this are not joined
 };
 
 struct Chart {

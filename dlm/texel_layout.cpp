@@ -1,0 +1,111 @@
+#include "dlm/texel_layout.h"
+
+#include <string>
+
+#include "base/error.h"
+#include "dlm/texel_layout_coverage.h"
+
+namespace lucarne {
+namespace {
+
+constexpr double kMaxSide = 16000;  // texels along a chart: what one page of a light map can hold
+
+double texelsAlong(double size, double texelsPerLocal) { return std::max(1.0, std::ceil(size * texelsPerLocal)); }
+
+/// In floating point, so that no scene overflows it.
+double texelsAt(const ChartSet& set, double texelsPerLocal) {
+  double sum = 0;
+  for (const Chart& c : set.charts) sum += texelsAlong(c.size.x, texelsPerLocal) * texelsAlong(c.size.y, texelsPerLocal);
+  return sum;
+}
+
+bool fits(const ChartSet& set, double texelsPerLocal, double budget) {
+  for (const Chart& c : set.charts) {
+    if (texelsAlong(std::max(c.size.x, c.size.y), texelsPerLocal) > kMaxSide) return false;
+  }
+  return texelsAt(set, texelsPerLocal) <= budget;
+}
+
+/// The largest density up to `wanted` that fits, to one part in 2^20.
+double fittingDensity(const ChartSet& set, double wanted, double budget) {
+  if (fits(set, wanted, budget)) return wanted;
+  double low = wanted / 2, high = wanted;
+  while (!fits(set, low, budget)) {  // ends: a density low enough gives each chart one texel
+    high = low;
+    low /= 2;
+  }
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (low + high);
+    (fits(set, middle, budget) ? low : high) = middle;
+  }
+  return low;
+}
+
+ChartLayout chartLayout(const Chart& chart, double texelsPerLocal, std::uint64_t firstTexel) {
+  ChartLayout layout;
+  layout.width = static_cast<int>(texelsAlong(chart.size.x, texelsPerLocal));
+  layout.height = static_cast<int>(texelsAlong(chart.size.y, texelsPerLocal));
+  layout.firstTexel = firstTexel;
+  layout.texelsPerLocal = {layout.width / chart.size.x, layout.height / chart.size.y};
+  return layout;
+}
+
+/// Spreads each triangle's surface over the texels in proportion to what they hold of its projection: the sum is the
+/// chart's area whatever rounding did to the corners.
+void coverChart(const Scene& scene, const ChartSet& set, const Chart& chart, const ChartLayout& layout,
+                std::vector<double>& area) {
+  TexelCoverage coverage(layout.width, layout.height);
+  const auto index = [&layout](int x, int y) {
+    return layout.firstTexel + static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(layout.width) +
+           static_cast<std::uint64_t>(x);
+  };
+  for (const std::uint32_t t : chart.triangles) {
+    std::array<Vec2d, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2f uv = set.cornerUv[t][k];
+      corner[k] = {uv.x * layout.texelsPerLocal.x, uv.y * layout.texelsPerLocal.y};
+    }
+    const double surface = 0.5 * length(scene.scaledNormal(t));
+    double projected = 0;
+    const std::vector<CoveredRun>& runs = coverage.of(corner);
+    for (const CoveredRun& run : runs) projected += run.count * run.area;
+    if (!(projected > 0)) {  // rounding left a line: all of it is where its middle is
+      const Vec2d middle = (corner[0] + corner[1] + corner[2]) * (1.0 / 3);
+      const TexelIndex texel = texelAt(layout, {static_cast<float>(middle.x), static_cast<float>(middle.y)});
+      area[index(texel.x, texel.y)] += surface;
+      continue;
+    }
+    const double scale = surface / projected;
+    for (const CoveredRun& run : runs) {
+      const std::uint64_t first = index(run.x, run.y);
+      for (int i = 0; i < run.count; ++i) area[first + static_cast<std::uint64_t>(i)] += run.area * scale;
+    }
+  }
+}
+
+}  // namespace
+
+TexelLayout layOutTexels(const Scene& scene, const ChartSet& set, const LayoutOptions& options) {
+  if (set.charts.size() > options.texelBudget) {
+    throw Error(ExitCode::outOfResource, "the scene needs at least one texel for each of its " +
+                                             std::to_string(set.charts.size()) + " charts, more than the budget of " +
+                                             std::to_string(options.texelBudget) + " texels: raise the budget");
+  }
+  TexelLayout layout;
+  const double wanted = options.texelsPerMetre * scene.frame.scale;
+  const double used = fittingDensity(set, wanted, static_cast<double>(options.texelBudget));
+  layout.thinned = used < wanted;
+  layout.texelsPerMetre = layout.thinned ? used / scene.frame.scale : options.texelsPerMetre;
+  layout.charts.reserve(set.charts.size());
+  for (const Chart& chart : set.charts) {
+    layout.charts.push_back(chartLayout(chart, used, layout.texelCount));
+    layout.texelCount += layout.charts.back().texelCount();
+  }
+  layout.area.assign(layout.texelCount, 0.0);
+  for (std::size_t i = 0; i < set.charts.size(); ++i) {
+    coverChart(scene, set, set.charts[i], layout.charts[i], layout.area);
+  }
+  return layout;
+}
+
+}  // namespace lucarne
