@@ -14,8 +14,9 @@ class TempFolder {
  public:
   TempFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(::testing::TempDir()) /
-            (std::string("lucarne-") + test->test_suite_name() + "-" + test->name() + "-" + std::to_string(::getpid()));
+    std::string name = std::string("lucarne-") + test->test_suite_name() + "-" + test->name();
+    std::replace(name.begin(), name.end(), '/', '-');
+    path_ = std::filesystem::path(::testing::TempDir()) / (name + "-" + std::to_string(::getpid()));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
