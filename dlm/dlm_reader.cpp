@@ -1,0 +1,77 @@
+#include "dlm/dlm_reader.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "dlm/dlm_reader_pages.h"
+#include "dlm/manifest.h"
+#include "dlm/manifest_seal.h"
+#include "tracer/scene/gltf_json.h"
+#include "tracer/scene/gltf_reader.h"
+
+namespace lucarne {
+
+namespace {
+
+constexpr std::uint64_t kLargestManifest = std::uint64_t{1} << 29;
+
+constexpr double kRounding = 0.05;  // texels: of float texture coordinates in a large atlas
+
+bool inside(const MapChart& chart, const LightMaps& maps, Vec2f uv) {
+  const double s = static_cast<double>(uv.x) * maps.atlasWidth - chart.atlasX;
+  const double t = static_cast<double>(uv.y) * maps.atlasHeight - chart.atlasY;
+  return s >= -kRounding && t >= -kRounding && s <= chart.width + kRounding && t <= chart.height + kRounding;
+}
+
+void checkTriangle(const Scene& scene, const LightMaps& maps, std::uint32_t triangle, const std::string& file) {
+  const auto fail = [&](const std::string& what) {
+    throw InputError(file + ": triangle " + std::to_string(triangle) + " " + what + "; the files are not of one bake");
+  };
+  const std::uint32_t chart = scene.chartOfTriangle[triangle];
+  if (chart == kNone) return;
+  if (chart >= maps.charts.size()) {
+    fail("belongs to chart " + std::to_string(chart) + " of " + std::to_string(maps.charts.size()));
+  }
+  if (scene.triangles[triangle].material != maps.charts[chart].material) fail("is not of its chart's material");
+  for (const std::uint32_t v : scene.triangles[triangle].v) {
+    if (!inside(maps.charts[chart], maps, scene.uv1[v])) fail("lies outside the rectangle of its chart");
+  }
+}
+
+void checkCharts(const Scene& scene, const LightMaps& maps, const std::string& file) {
+  if (scene.chartOfTriangle.size() != scene.triangles.size() ||
+      (scene.uv1.size() != scene.positions.size() && !maps.charts.empty())) {
+    throw InputError(file + ": does not say which chart each triangle belongs to; bake the scene again");
+  }
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) checkTriangle(scene, maps, i, file);
+}
+
+}  // namespace
+
+nlohmann::json readManifest(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError(folder.string() + ": is not a folder of light maps; give the NAME.dlm that a bake wrote");
+  }
+  const std::filesystem::path path = folder / dlm_file::kManifest;
+  const std::vector<std::uint8_t> bytes = readFile(path, kLargestManifest);
+  const std::string text(bytes.begin(), bytes.end());
+  nlohmann::json manifest = parseGltfJson(text, Place(path.string()));
+  if (textOf(manifest, "format", "", Place(path.string())) != dlm_file::kFormat) {
+    throw InputError(path.string() + ": is not the manifest of light maps");
+  }
+  return manifest;
+}
+
+Dlm readDlm(const std::filesystem::path& folder) {
+  Dlm dlm;
+  dlm.manifest = readManifest(folder);
+  ManifestContents contents = readManifestMaps(dlm.manifest, (folder / dlm_file::kManifest).string());
+  for (const char* name : {dlm_file::kScene, dlm_file::kIrradiance}) checkSeal(dlm.manifest, folder, name);
+  if (!contents.pages.directional.layers.empty()) checkSeal(dlm.manifest, folder, dlm_file::kDirectional);
+  const std::filesystem::path scenePath = folder / dlm_file::kScene;
+  dlm.scene = readGltf(scenePath);
+  dlm.maps = readPages(folder, std::move(contents));
+  checkCharts(dlm.scene, dlm.maps, scenePath.string());
+  return dlm;
+}
+
+}  // namespace lucarne

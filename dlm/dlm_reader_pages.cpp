@@ -1,0 +1,146 @@
+#include "dlm/dlm_reader_pages.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/image_file.h"
+
+namespace lucarne {
+
+namespace {
+
+// The layers of one file, asked for by name.
+class LayerFile {
+ public:
+  explicit LayerFile(const std::filesystem::path& path) : name_(path.string()), layers_(readExr(path)) {}
+
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+
+  const ExrLayer& layer(const std::string& name, int width, int height) const {
+    const auto found = std::find_if(layers_.begin(), layers_.end(), [&](const ExrLayer& l) { return l.name == name; });
+    if (found == layers_.end()) fail("has no layer \"" + name + "\", which the manifest names");
+    if (found->width != width || found->height != height) {
+      fail("the layer \"" + name + "\" is " + sizeText(found->width, found->height) + ", not " +
+           sizeText(width, height) + " as the manifest says");
+    }
+    return *found;
+  }
+
+  const std::vector<float>& values(const ExrLayer& layer, const char* channel) const {
+    const ExrChannel* found = layer.find(channel);
+    if (found == nullptr || found->type == ChannelType::uint32) {
+      fail("the layer \"" + layer.name + "\" has no channel " + channel + " of real numbers");
+    }
+    if (!std::all_of(found->floats.begin(), found->floats.end(), [](float v) { return std::isfinite(v); })) {
+      fail("the channel " + std::string(channel) + " of the layer \"" + layer.name +
+           "\" holds a number that is not finite");
+    }
+    return found->floats;
+  }
+
+  std::array<const std::vector<float>*, 3> rgb(const ExrLayer& layer) const {
+    return {&values(layer, "R"), &values(layer, "G"), &values(layer, "B")};
+  }
+
+ private:
+  static std::string sizeText(int width, int height) { return std::to_string(width) + " × " + std::to_string(height); }
+
+  std::string name_;
+  std::vector<ExrLayer> layers_;
+};
+
+// Calls use(index in the rectangle, index in the page) row by row.
+template <class Use>
+void forEachTexel(int x, int y, int width, int height, int pageWidth, Use use) {
+  std::size_t texel = 0;
+  for (int row = 0; row < height; ++row) {
+    std::size_t pixel =
+        static_cast<std::size_t>(y + row) * static_cast<std::size_t>(pageWidth) + static_cast<std::size_t>(x);
+    for (int column = 0; column < width; ++column) use(texel++, pixel++);
+  }
+}
+
+void readIrradianceSides(const LayerFile& file, bool back, LightMaps& maps) {
+  const std::string name = back ? "back" : "front";
+  const int width = std::max(1, maps.atlasWidth), height = std::max(1, maps.atlasHeight);
+  const ExrLayer& statistics = file.layer(name + dlm_file::kStatistics, width, height);
+  const auto rgb = file.rgb(file.layer(name, width, height));
+  const std::vector<float>& photons = file.values(statistics, "photons");
+  const std::vector<float>& error = file.values(statistics, "relative_error");
+  for (const SideMaps& side : maps.sides) {
+    if (!side.lit || side.back != back) continue;
+    const MapChart& chart = maps.charts[side.chart];
+    forEachTexel(chart.atlasX, chart.atlasY, side.width, side.height, width, [&](std::size_t texel, std::size_t pixel) {
+      const std::size_t i = side.firstTexel + texel;
+      maps.irradiance[i] = {(*rgb[0])[pixel], (*rgb[1])[pixel], (*rgb[2])[pixel]};
+      maps.photons[i] = photons[pixel];
+      maps.relativeError[i] = error[pixel];
+    });
+  }
+}
+
+void readIrradiance(const std::filesystem::path& path, const ManifestContents& contents, LightMaps& maps) {
+  const LayerFile file(path);
+  // Only now, with the layers seen, is the number of texels to be believed.
+  const int width = std::max(1, maps.atlasWidth), height = std::max(1, maps.atlasHeight);
+  for (const std::string& name : contents.pages.irradianceLayers) file.layer(name, width, height);
+  file.layer("front", width, height);
+  maps.irradiance.resize(contents.texelCount);
+  maps.photons.resize(contents.texelCount);
+  maps.relativeError.resize(contents.texelCount);
+  readIrradianceSides(file, false, maps);
+  if (hasLitBack(maps)) readIrradianceSides(file, true, maps);
+}
+
+void checkScale(const LayerFile& file, const ExrLayer& layer, double scale) {
+  const auto attribute = layer.attributes.find("directional_scale");
+  if (attribute == layer.attributes.end()) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", scale);
+  if (attribute->second != text) {
+    file.fail("the layer \"" + layer.name + "\" is scaled by " + attribute->second.substr(0, 40) + ", not by " + text +
+              " as the manifest says");
+  }
+}
+
+void readDirectional(const std::filesystem::path& path, const ManifestContents& contents, LightMaps& maps) {
+  const DirectionalPages& pages = contents.pages.directional;
+  const LayerFile file(path);
+  std::vector<std::array<const std::vector<float>*, 3>> layers;
+  for (const std::string& name : pages.layers) {
+    const ExrLayer& layer = file.layer(name, pages.width, pages.height);
+    checkScale(file, layer, pages.scale);
+    layers.push_back(file.rgb(layer));
+  }
+  maps.directional.resize(contents.directionalCount);
+  const std::int64_t pageTexels = std::int64_t{pages.width} * pages.height;
+  std::size_t k = 0;
+  for (const SideMaps& side : maps.sides) {
+    for (const SideDirection& direction : side.directions) {
+      const std::int64_t place = pages.places[k++];
+      if (place == DirectionalPages::kNotStored) continue;
+      const auto& rgb = layers[static_cast<std::size_t>(place / pageTexels)];
+      const int x = static_cast<int>(place % pages.width), y = static_cast<int>(place / pages.width % pages.height);
+      forEachTexel(x, y, side.width, side.height, pages.width, [&](std::size_t texel, std::size_t pixel) {
+        Rgb& value = maps.directional[direction.first + texel];
+        for (std::size_t c = 0; c < 3; ++c) {
+          value[static_cast<int>(c)] = static_cast<float>((*rgb[c])[pixel] * pages.scale);
+        }
+        if (!isFinite(value)) file.fail("its values times the scale of the manifest are not finite");
+      });
+    }
+  }
+}
+
+}  // namespace
+
+LightMaps readPages(const std::filesystem::path& folder, ManifestContents contents) {
+  LightMaps maps = std::move(contents.maps);
+  readIrradiance(folder / dlm_file::kIrradiance, contents, maps);
+  if (!contents.pages.directional.layers.empty()) readDirectional(folder / dlm_file::kDirectional, contents, maps);
+  return maps;
+}
+
+}  // namespace lucarne

@@ -1,0 +1,13 @@
+// The texels of light maps out of the layers of irradiance.exr and directional.exr.
+#pragma once
+
+#include <filesystem>
+
+#include "dlm/manifest.h"
+
+namespace lucarne {
+
+/// Reads both image files and fills all texels. InputError names the file.
+LightMaps readPages(const std::filesystem::path& folder, ManifestContents contents);
+
+}  // namespace lucarne

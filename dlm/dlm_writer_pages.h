@@ -1,0 +1,26 @@
+// Light maps laid out as the layers of irradiance.exr and directional.exr.
+#pragma once
+
+#include <vector>
+
+#include "base/image_file.h"
+#include "dlm/light_maps.h"
+#include "dlm/manifest.h"
+
+namespace lucarne {
+
+/// "front", "back" where a back side is lit, and the statistics of each. The gutters between the charts' rectangles
+/// repeat the nearest texel of a rectangle, so that bilinear lookup and the first mipmaps are right in any engine.
+std::vector<ExrLayer> irradianceLayers(const LightMaps& maps);
+
+/// Packs the stored directional maps, those of one ψ together, and tells where each goes; scale is left 1.
+DirectionalPages packDirectional(const LightMaps& maps);
+
+/// Divides by pages.scale; `type` is half or float32.
+std::vector<ExrLayer> directionalLayers(const LightMaps& maps, const DirectionalPages& pages, ChannelType type);
+
+/// The power of two that brings the largest value into [2^14, 2^15) when divided by it: half's whole range below is
+/// then there for the small ones. 1 when all is zero.
+double directionalScale(const LightMaps& maps);
+
+}  // namespace lucarne
