@@ -40,7 +40,8 @@ struct Texture {
   bool nearest = false;  // magnification filter
 };
 
-/// A use of a texture by a material. Coordinates: (u', v') = m · (u, v) + offset (KHR_texture_transform; identity if absent).
+/// A use of a texture by a material. Coordinates: (u', v') = m · (u, v) + offset (KHR_texture_transform; identity if
+/// absent).
 struct TextureUse {
   std::uint32_t texture = kNone;
   std::uint8_t uvSet = 0;  // 0 or 1
@@ -50,14 +51,14 @@ struct TextureUse {
 
 struct Material {
   std::string name;
-  Rgb baseColor{1.f};  // linear factor
+  Rgb baseColor{1.f};           // linear factor
   TextureUse baseColorTexture;  // sRGB
   float metallic = 1, roughness = 1;
   TextureUse metallicRoughnessTexture;  // linear; g = roughness, b = metallic
-  Rgb emissive{0.f};  // cd/m², emissiveFactor · KHR_materials_emissive_strength
-  TextureUse emissiveTexture;  // sRGB, multiplies `emissive`
-  float specular = 1;          // KHR_materials_specular: specularFactor
-  Rgb specularColor{1.f};      //   and specularColorFactor
+  Rgb emissive{0.f};                    // cd/m², emissiveFactor · KHR_materials_emissive_strength
+  TextureUse emissiveTexture;           // sRGB, multiplies `emissive`
+  float specular = 1;                   // KHR_materials_specular: specularFactor
+  Rgb specularColor{1.f};               //   and specularColorFactor
   float ior = 1.5f;
   bool doubleSided = false;
 
@@ -102,6 +103,9 @@ struct Scene {
   std::vector<Vec3f> positions;  // local
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uv0, uv1;
+  // TEXCOORD_1 of the file: the scene's own unwrapping for light maps or, with chartOfTriangle, the place in the
+  // irradiance atlas. The same as uv1 unless a material takes another set for its second; empty means none in file.
+  std::vector<Vec2f> atlasUv;
   std::vector<std::uint32_t> sourceVertex;  // index into the source primitive's accessors
 
   // Triangles, counter-clockwise from the front (mirroring transforms already undone). Degenerate ones are kept, so
@@ -121,8 +125,8 @@ struct Scene {
   // place in the irradiance atlas.
   std::vector<std::uint32_t> chartOfTriangle;
 
-  std::vector<std::string> leftOut;            // what the file has and we do not model, each once
-  std::shared_ptr<const GltfSource> source;    // null for scenes made in memory
+  std::vector<std::string> leftOut;          // what the file has and we do not model, each once
+  std::shared_ptr<const GltfSource> source;  // null for scenes made in memory
 
   Vec3f corner(std::uint32_t triangle, int k) const { return positions[triangles[triangle].v[k]]; }
   /// Twice the area times the unit geometric normal of the front.
