@@ -1,12 +1,10 @@
 #include "dlm/manifest_seal.h"
 
-#include <xxhash.h>
-
-#include <array>
 #include <cstdint>
-#include <memory>
+#include <span>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/input_file.h"
 
 namespace lucarne {
@@ -14,25 +12,14 @@ namespace lucarne {
 namespace {
 
 std::string hashOf(const InputFile& file) {
-  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), &XXH3_freeState);
-  if (state == nullptr) throw Error(ExitCode::outOfResource, "out of memory while hashing " + file.path().string());
-  XXH3_128bits_reset(state.get());
+  Hasher hasher;
   std::vector<std::uint8_t> block(std::size_t{1} << 20);
   std::uint64_t offset = 0;
-  for (std::size_t n = file.read(0, block.data(), block.size()); n > 0;
-       n = file.read(offset, block.data(), block.size())) {
-    XXH3_128bits_update(state.get(), block.data(), n);
+  while (const std::size_t n = file.read(offset, block.data(), block.size())) {
+    hasher.add(std::span<const std::uint8_t>(block.data(), n));
     offset += n;
   }
-  XXH128_canonical_t canonical;
-  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text;
-  for (const unsigned char byte : canonical.digest) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return text;
+  return hasher.finish().hex();
 }
 
 }  // namespace

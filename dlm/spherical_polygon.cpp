@@ -1,49 +1,18 @@
 #include "dlm/spherical_polygon.h"
 
 #include "base/error.h"
+#include "base/math.h"
 
 namespace lucarne {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-// Arc tangent of x in [0, 1] by the rational approximation of Cephes' atan.c (Moshier 1989), error below 2e-16: the C
-// library's own differs in its last bits between machines.
-double atanUnit(double x) {
-  double base = 0;
-  if (x > 0.66) {
-    base = kPi / 4;
-    x = (x - 1) / (x + 1);
-  }
-  const double z = x * x;
-  const double p =
-      (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z - 7.500855792314704667340e1) * z -
-       1.228866684490136173410e2) *
-          z -
-      6.485021904942025371773e1;
-  const double q =
-      ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z + 4.328810604912902668951e2) * z +
-       4.853903996359136964868e2) *
-          z +
-      1.945506571482613964425e2;
-  return base + (x + x * z * p / q);
-}
-
-// The angle of (x, y), y >= 0: 0 … π.
-double angleOf(double y, double x) {
-  const double ax = std::abs(x);
-  if (y == 0) return x < 0 ? kPi : 0;
-  const double acute = y <= ax ? atanUnit(y / ax) : kPi / 2 - atanUnit(ax / y);
-  return x < 0 ? kPi - acute : acute;
-}
 
 // Van Oosterom and Strackee 1983, equation 8: tan(Ω/2) = det(a,b,c) / (1 + a·b + b·c + c·a) for unit a, b, c. The
 // determinant is taken of differences, a·((b−a)×(c−a)), so that it stays exact for small triangles.
 double triangleSolidAngle(Vec3d a, Vec3d b, Vec3d c) {
   const double det = dot(a, cross(b - a, c - a));
   const double denominator = 1 + dot(a, b) + dot(b, c) + dot(c, a);
-  return det >= 0 ? 2 * angleOf(det, denominator) : -2 * angleOf(-det, denominator);
+  return 2 * atan2(det, denominator);
 }
 
 }  // namespace
@@ -53,7 +22,7 @@ void SphericalPolygon::add(Vec3d unit) {
   vertices[static_cast<std::size_t>(count++)] = unit;
 }
 
-double angleBetween(Vec3d a, Vec3d b) { return angleOf(length(cross(a, b)), dot(a, b)); }
+double angleBetween(Vec3d a, Vec3d b) { return atan2(length(cross(a, b)), dot(a, b)); }
 
 // Sutherland and Hodgman 1974, on cones: an edge from a to b crosses the plane at d_a·b − d_b·a, d the distances.
 SphericalPolygon clip(std::span<const Vec3d> polygon, Vec3d normal) {
@@ -90,7 +59,7 @@ Vec3d moment(std::span<const Vec3d> polygon) {
   for (const Vec3d& b : polygon) {
     const Vec3d normal = cross(a, b - a);  // = a × b, exact for short edges
     const double sine = length(normal);
-    if (sine > 0) sum += normal * (0.5 * angleOf(sine, dot(a, b)) / sine);
+    if (sine > 0) sum += normal * (0.5 * atan2(sine, dot(a, b)) / sine);
     a = b;
   }
   return sum;

@@ -1,6 +1,6 @@
 // Convex spherical polygons, smaller than a hemisphere: clipping by planes through the centre and exact integrals.
 //
-// Plain arithmetic and sqrt only, so that everything derived from them has the same bits on every machine.
+// Plain arithmetic only (base/math.h), so that everything derived from them has the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ double solidAngle(std::span<const Vec3d> polygon);
 Vec3d moment(std::span<const Vec3d> polygon);
 SphericalIntegral integrate(std::span<const Vec3d> polygon);
 
-/// The angle between two vectors, 0 … π, by plain arithmetic, to about 1e-15; the vectors need not be unit.
+/// The angle between two vectors, 0 … π,, to about 1e-15; the vectors need not be unit.
 double angleBetween(Vec3d a, Vec3d b);
 
 }  // namespace lucarne
