@@ -6,7 +6,8 @@
 add_library(lucarne_flags INTERFACE)
 target_compile_options(lucarne_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
-  -ffp-contract=off -fno-math-errno $<$<CONFIG:Release>:-O3>)
+  -ffp-contract=off -fno-math-errno $<$<CONFIG:Release>:-O3>
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # GCC 12 warns of std::string's own operator+ (its bug 105651)
 if(LUCARNE_WERROR)
   target_compile_options(lucarne_flags INTERFACE -Werror)
 endif()

@@ -19,7 +19,8 @@ class SpecularTable {
   /// The one table of the program: built at the first call, immutable afterwards.
   static const SpecularTable& instance();
 
-  static constexpr int kSize = 128;  // nodes: cosθ_i = i/(kSize−1), roughness_j = sqrt(α)_j = j/(kSize−1)
+  static constexpr int kCosines = 128, kRoughnesses = 64;  // nodes: cosθ = i/(kCosines−1), √α = j/(kRoughnesses−1)
+  static constexpr int kSize = kCosines;  // a fair resolution for copies of the table
 
  private:
   std::vector<Vec2f> directional_;  // [roughness][cos]

@@ -13,7 +13,7 @@
 
 namespace lucarne {
 
-using Int128 = __int128;
+__extension__ typedef __int128 Int128;  // of GCC and Clang
 
 /// Fixed point of tallies and ledger: units of 2^-24 of the scene's emitted flux.
 inline constexpr int kFixedPointBits = 24;
@@ -34,7 +34,9 @@ struct FixedRgb {
   std::array<std::int64_t, 3> units{};
   FixedRgb() = default;
   explicit FixedRgb(Rgb beta) : units{toUnits(beta.x), toUnits(beta.y), toUnits(beta.z)} {}
-  static std::int64_t toUnits(float v) { return static_cast<std::int64_t>(v * kFixedPointOne + 0.5f); }
+  static std::int64_t toUnits(float v) {
+    return static_cast<std::int64_t>(static_cast<double>(v) * static_cast<double>(kFixedPointOne) + 0.5);
+  }
   friend FixedRgb operator-(FixedRgb a, const FixedRgb& b) {
     for (std::size_t c = 0; c < 3; ++c) a.units[c] -= b.units[c];
     return a;
