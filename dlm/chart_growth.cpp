@@ -1,11 +1,8 @@
 #include "dlm/chart_growth.h"
 
-#include "dlm/chart_plane.h"
-
 namespace lucarne {
 namespace {
 
-constexpr double kCosFlat = 1 - 5e-7;         // 1e-3 rad: one plane but for rounding
 constexpr double kCosSameShading = 1 - 4e-3;  // about 5°: exporters round vertex normals
 
 bool shadingContinues(const Scene& scene, std::uint32_t t, int k, EdgeLink link) {
@@ -47,61 +44,34 @@ void cutCreases(const Scene& scene, HalfEdgeMesh& mesh, double creaseAngleDegree
   }
 }
 
-ChartGrower::ChartGrower(const HalfEdgeMesh& mesh, double maxAngleDegrees, double extent, double tolerance)
-    : mesh_(mesh),
-      cosMaxAngle_(cosDegrees(std::clamp(maxAngleDegrees, 0.1, 80.0))),
-      free_(mesh.vertices.size()),
-      normal_(mesh.vertices.size()),
-      area_(mesh.vertices.size()),
-      triedIn_(mesh.vertices.size(), 0),
-      set_(2 * extent, tolerance) {
-  for (std::uint32_t t = 0; t < free_.size(); ++t) {
-    if (mesh.degenerate(t)) continue;
-    const Vec3d n = mesh.scaledNormal(t);
-    free_[t] = true;
-    normal_[t] = normalize(n);
-    area_[t] = 0.5 * length(n);
-  }
+ChartGrower::ChartGrower(const ChartFaces& faces, double cosMaxAngle, PlaneTriangleSet& set)
+    : faces_(faces), cosMaxAngle_(cosMaxAngle), set_(set), free_(faces.area.size()), triedIn_(faces.area.size(), 0) {
+  for (std::uint32_t t = 0; t < free_.size(); ++t) free_[t] = !faces.mesh.degenerate(t);
 }
 
-/// Grown twice: once around the seed's normal, then around the mean normal of what that gave, which centres the chart on
-/// its part of a curved surface. The plane is the mean normal of the second growth where that keeps the bounds.
+/// Grown twice: once around the seed's normal, then around the mean normal of what that gave, which centres the chart
+/// on its part of a curved surface. The plane is the mean normal of the second growth where that keeps the bounds.
 GrownChart ChartGrower::take(std::uint32_t seed) {
-  Vec3d normal = normal_[seed];
+  Vec3d normal = faces_.normal[seed];
   std::vector<std::uint32_t> chart = grow(seed, normal);
-  Vec3d mean = meanNormal(chart);
-  if (smallestCosine(chart, normal) < kCosFlat && dot(mean, normal_[seed]) >= cosMaxAngle_) {
+  Vec3d mean = faces_.meanNormal(chart);
+  if (faces_.smallestCosine(chart, normal) < kCosFlat && dot(mean, faces_.normal[seed]) >= cosMaxAngle_) {
     std::vector<std::uint32_t> again = grow(seed, mean);
-    if (areaOf(again) >= areaOf(chart)) {
+    if (faces_.areaOf(again) >= faces_.areaOf(chart)) {
       chart = std::move(again);
       normal = mean;
-      mean = meanNormal(chart);
+      mean = faces_.meanNormal(chart);
     }
   }
-  const bool flat = smallestCosine(chart, normal) >= kCosFlat;
-  if (flat || (smallestCosine(chart, mean) >= cosMaxAngle_ && isOneToOne(chart, mean))) normal = mean;
+  const bool flat = faces_.smallestCosine(chart, normal) >= kCosFlat;
+  if (flat || (faces_.smallestCosine(chart, mean) >= cosMaxAngle_ && isOneToOne(chart, mean))) normal = mean;
   for (const std::uint32_t t : chart) free_[t] = false;
   return {normal, std::move(chart)};
 }
 
-ChartGrower::Plane ChartGrower::planeThrough(std::uint32_t seed, Vec3d normal) const {
-  Plane plane{normal, {}, {}, mesh_.corner(seed, 0)};
-  planeAxes(normal, plane.axisU, plane.axisV);
-  return plane;
-}
-
-PlaneTriangle ChartGrower::project(std::uint32_t triangle, const Plane& plane) const {
-  PlaneTriangle result;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3d p = mesh_.corner(triangle, k) - plane.origin;
-    result[k] = {dot(p, plane.axisU), dot(p, plane.axisV)};
-  }
-  return result;
-}
-
 /// Breadth-first, but what lies in one plane goes before what is beyond a bend.
 std::vector<std::uint32_t> ChartGrower::grow(std::uint32_t seed, Vec3d normal) {
-  const Plane plane = planeThrough(seed, normal);
+  const ProjectionPlane plane(normal, faces_.mesh.corner(seed, 0));
   std::vector<std::uint32_t> chart;
   ++growth_;
   set_.clear();
@@ -112,7 +82,7 @@ std::vector<std::uint32_t> ChartGrower::grow(std::uint32_t seed, Vec3d normal) {
     const std::uint32_t t = flatHead_ < flatFront_.size() ? flatFront_[flatHead_++] : curvedFront_[curvedHead_++];
     if (triedIn_[t] == growth_) continue;
     triedIn_[t] = growth_;
-    if (dot(normal_[t], normal) < cosMaxAngle_ || !set_.tryAdd(project(t, plane))) continue;
+    if (dot(faces_.normal[t], normal) < cosMaxAngle_ || !set_.tryAdd(faces_.project(t, plane))) continue;
     addWithNeighbours(t, chart);
   }
   return chart;
@@ -120,35 +90,18 @@ std::vector<std::uint32_t> ChartGrower::grow(std::uint32_t seed, Vec3d normal) {
 
 void ChartGrower::addWithNeighbours(std::uint32_t triangle, std::vector<std::uint32_t>& chart) {
   chart.push_back(triangle);
-  for (const EdgeLink& link : mesh_.links[triangle]) {
+  for (const EdgeLink& link : faces_.mesh.links[triangle]) {
     if (link.triangle == kNone || !free_[link.triangle] || triedIn_[link.triangle] == growth_) continue;
-    const bool flat = dot(normal_[triangle], normal_[link.triangle]) >= kCosFlat;
+    const bool flat = dot(faces_.normal[triangle], faces_.normal[link.triangle]) >= kCosFlat;
     (flat ? flatFront_ : curvedFront_).push_back(link.triangle);
   }
 }
 
-Vec3d ChartGrower::meanNormal(const std::vector<std::uint32_t>& chart) const {
-  Vec3d sum;
-  for (const std::uint32_t t : chart) sum += normal_[t] * area_[t];
-  return snappedNormal(sum);
-}
-
-double ChartGrower::areaOf(const std::vector<std::uint32_t>& chart) const {
-  double sum = 0;
-  for (const std::uint32_t t : chart) sum += area_[t];
-  return sum;
-}
-
-double ChartGrower::smallestCosine(const std::vector<std::uint32_t>& chart, Vec3d normal) const {
-  double least = 1;
-  for (const std::uint32_t t : chart) least = std::min(least, dot(normal_[t], normal));
-  return least;
-}
-
 bool ChartGrower::isOneToOne(const std::vector<std::uint32_t>& chart, Vec3d normal) {
-  const Plane plane = planeThrough(chart[0], normal);
+  const ProjectionPlane plane(normal, faces_.mesh.corner(chart[0], 0));
   set_.clear();
-  return std::all_of(chart.begin(), chart.end(), [&](std::uint32_t t) { return set_.tryAdd(project(t, plane)); });
+  return std::all_of(chart.begin(), chart.end(),
+                     [&](std::uint32_t t) { return set_.tryAdd(faces_.project(t, plane)); });
 }
 
 }  // namespace lucarne

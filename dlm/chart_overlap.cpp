@@ -137,9 +137,18 @@ void PlaneTriangleSet::insert(const PlaneTriangle& triangle, const Bounds& bound
     ++usedSlots_;
   }
   const auto index = static_cast<std::uint32_t>(entries_.size());
-  entries_.push_back({triangle, bounds, slot.head});
+  entries_.push_back({triangle, bounds, slot.head, x, y, level});
   slot.head = index;
   entriesOfLevel_[static_cast<std::size_t>(level)].push_back(index);
+}
+
+void PlaneTriangleSet::shrinkTo(std::size_t size) {
+  while (entries_.size() > size) {
+    const Entry& last = entries_.back();
+    slotAt(last.x, last.y, last.level).head = last.next;
+    entriesOfLevel_[static_cast<std::size_t>(last.level)].pop_back();
+    entries_.pop_back();
+  }
 }
 
 void PlaneTriangleSet::growTable() {

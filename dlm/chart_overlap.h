@@ -27,6 +27,9 @@ class PlaneTriangleSet {
   /// set's triangles (long parallel slivers) are so many in each other's bounding boxes that the search is no longer
   /// near-linear.
   bool tryAdd(const PlaneTriangle& triangle);
+  std::size_t size() const { return entries_.size(); }
+  /// Removes what was added last, down to `size` triangles.
+  void shrinkTo(std::size_t size);
 
  private:
   struct Bounds {
@@ -36,6 +39,7 @@ class PlaneTriangleSet {
     PlaneTriangle triangle;
     Bounds bounds;
     std::uint32_t next;  // in the cell
+    std::int32_t x, y, level;
   };
   struct Slot {
     std::int32_t x = 0, y = 0, level = 0;

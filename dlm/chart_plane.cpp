@@ -22,8 +22,8 @@ Rectangle boundingRectangle(const std::vector<Vec2d>& hull, Vec2d u) {
   return r;
 }
 
-/// Rotating calipers (Toussaint 1983): the least rectangle has a side along an edge of the hull. While the edge turns, the
-/// furthest points along it, across it and against it only move forward.
+/// Rotating calipers (Toussaint 1983): the least rectangle has a side along an edge of the hull. While the edge turns,
+/// the furthest points along it, across it and against it only move forward.
 class Calipers {
  public:
   explicit Calipers(const std::vector<Vec2d>& hull) : hull_(hull) {}

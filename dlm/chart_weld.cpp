@@ -75,8 +75,10 @@ class NearbyWelder {
     for (std::uint32_t v = 0; v < joined_.size(); ++v) {
       if (representative_[v] != v || !border[v] || !isFinite(scene_.positions[v])) continue;
       const std::uint32_t near = findNear(v);
-      if (near == kNone) cells_[cellOf(v)].push_back(v);
-      else joined_[v] = near;
+      if (near == kNone)
+        cells_[cellOf(v)].push_back(v);
+      else
+        joined_[v] = near;
     }
     for (std::uint32_t& r : representative_) r = joined_[r];
   }

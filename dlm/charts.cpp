@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "dlm/chart_growth.h"
+#include "dlm/chart_merge.h"
 #include "dlm/chart_plane.h"
 #include "dlm/half_edge_mesh.h"
 
@@ -19,13 +20,25 @@ double extentOf(const Scene& scene) {
 
 /// Largest first, so that charts begin in the middle of flat parts and slivers join them. Areas count in powers of two
 /// only, off any round number: equal triangles stay in the order of the file however their areas were rounded.
-std::vector<std::uint32_t> seedOrder(const ChartGrower& grower, std::size_t count, double extent) {
+std::vector<std::uint32_t> seedOrder(const ChartFaces& faces, double extent) {
+  const std::size_t count = faces.area.size();
   std::vector<int> size(count);
-  for (std::uint32_t t = 0; t < count; ++t) std::frexp(1.37 * grower.areaOf(t) / (extent * extent), &size[t]);
+  for (std::uint32_t t = 0; t < count; ++t) std::frexp(1.37 * faces.area[t] / (extent * extent), &size[t]);
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
   return order;
+}
+
+/// Every triangle with area in one chart.
+std::vector<GrownChart> partition(const ChartFaces& faces, double cosMaxAngle, double extent, double tolerance) {
+  PlaneTriangleSet overlaps(2 * extent, tolerance);
+  ChartGrower grower(faces, cosMaxAngle, overlaps);
+  std::vector<GrownChart> charts;
+  for (const std::uint32_t seed : seedOrder(faces, extent)) {
+    if (grower.isFree(seed)) charts.push_back(grower.take(seed));
+  }
+  return mergeCharts(faces, std::move(charts), cosMaxAngle, overlaps);
 }
 
 float clampedInside(double x, double size) {
@@ -81,13 +94,13 @@ ChartSet growCharts(const Scene& scene, const ChartOptions& options) {
   HalfEdgeMesh mesh = buildHalfEdgeMesh(scene, tolerance);
   cutCreases(scene, mesh, options.creaseAngleDegrees);
 
-  const std::size_t count = scene.triangles.size();
+  const ChartFaces faces(mesh);
+  const double cosMaxAngle = cosDegrees(std::clamp(options.maxAngleDegrees, 0.1, 80.0));
   ChartSet set;
-  set.chartOfTriangle.assign(count, kNone);
-  set.cornerUv.resize(count);
-  ChartGrower grower(mesh, options.maxAngleDegrees, extent, tolerance);
-  for (const std::uint32_t seed : seedOrder(grower, count, extent)) {
-    if (grower.isFree(seed)) set.charts.push_back(finishChart(scene, mesh, grower.take(seed), extent, set));
+  set.chartOfTriangle.assign(scene.triangles.size(), kNone);
+  set.cornerUv.resize(scene.triangles.size());
+  for (GrownChart& chart : partition(faces, cosMaxAngle, extent, tolerance)) {
+    set.charts.push_back(finishChart(scene, mesh, std::move(chart), extent, set));
   }
   orderBySmallestTriangle(set);
   return set;

@@ -22,18 +22,18 @@ struct ChartOptions {
 
 struct Chart {
   std::uint32_t material = 0;
-  bool smooth = false;                  // some triangle has interpolated normals
-  Vec3d normal{};                       // unit plane normal, on the front side
-  Vec3d axisU{}, axisV{};               // unit, axisU × axisV = normal
-  Vec2d size{};                         // extent along axisU, axisV in local units; > 0
-  double area = 0;                      // of its triangles, local units²
-  std::vector<std::uint32_t> triangles; // ascending
+  bool smooth = false;                   // some triangle has interpolated normals
+  Vec3d normal{};                        // unit plane normal, on the front side
+  Vec3d axisU{}, axisV{};                // unit, axisU × axisV = normal
+  Vec2d size{};                          // extent along axisU, axisV in local units; > 0
+  double area = 0;                       // of its triangles, local units²
+  std::vector<std::uint32_t> triangles;  // ascending
 };
 
 struct ChartSet {
   std::vector<Chart> charts;
-  std::vector<std::uint32_t> chartOfTriangle;        // kNone for degenerate triangles
-  std::vector<std::array<Vec2f, 3>> cornerUv;        // per triangle: place in its chart, local units, inside [0,size]
+  std::vector<std::uint32_t> chartOfTriangle;  // kNone for degenerate triangles
+  std::vector<std::array<Vec2f, 3>> cornerUv;  // per triangle: place in its chart, local units, inside [0,size]
 };
 
 /// Deterministic: depends on the scene's triangles and options alone. Charts are ordered by their smallest triangle.

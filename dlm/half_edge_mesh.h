@@ -9,7 +9,8 @@
 
 namespace lucarne {
 
-/// Where an edge leads: the triangle beyond it, and which of its edges it is there (edge k runs from corner k to k + 1).
+/// Where an edge leads: the triangle beyond it, and which of its edges it is there (edge k runs from corner k to k +
+/// 1).
 struct EdgeLink {
   std::uint32_t triangle = kNone;
   std::uint8_t edge = 0;

@@ -37,6 +37,8 @@ Demand addGutters(const std::vector<RectSize>& sizes, const PackOptions& options
   return demand;
 }
 
+double areaOf(const Packing& packing) { return static_cast<double>(packing.pageWidth) * packing.pageHeight; }
+
 Packing finish(const SkylinePacking& packed, int width, int height, int gutter) {
   Packing packing;
   packing.pageWidth = width;
@@ -50,17 +52,21 @@ Packing finish(const SkylinePacking& packed, int width, int height, int gutter) 
   return packing;
 }
 
-/// One page as wide as a square of the whole area would be, as tall as it then turns out.
-Packing packOnePage(const Demand& demand, const PackOptions& options, int limit, bool& fitted) {
+/// One page about as wide as a square of the whole area would be, as tall as it then turns out: the width that gives
+/// the smallest page. No pages where one does not hold all.
+Packing packOnePage(const Demand& demand, const PackOptions& options, int limit) {
   const int largest = limit / 4 * 4;
-  int width = std::min(largest, std::max(roundUpTo4(demand.width), roundUpTo4(std::sqrt(demand.area) * 1.01)));
-  SkylinePacking packed = packSkyline(demand.padded, width, largest);
-  if (packed.pageCount > 1 && width < largest) {
-    width = largest;
-    packed = packSkyline(demand.padded, width, largest);
+  Packing best;
+  for (const double factor : {1.0, 1.02, 1.05, 1.09, 1e9}) {
+    if (factor > 2 && best.pageCount > 0) break;  // only where nothing narrower did
+    const double wanted = std::min(std::sqrt(demand.area) * factor, static_cast<double>(largest));
+    const int width = std::min(largest, std::max(roundUpTo4(demand.width), roundUpTo4(wanted)));
+    const SkylinePacking packed = packSkyline(demand.padded, width, largest);
+    if (packed.pageCount != 1) continue;
+    const Packing page = finish(packed, width, roundUpTo4(packed.usedHeight), options.gutter);
+    if (best.pageCount == 0 || areaOf(page) < areaOf(best)) best = page;
   }
-  fitted = packed.pageCount <= 1;
-  return finish(packed, width, std::max(4, roundUpTo4(packed.usedHeight)), options.gutter);
+  return best;
 }
 
 /// As few pages of the largest size as there must be, then all of them smaller while no more are needed.
@@ -88,12 +94,14 @@ Packing packPages(const Demand& demand, const PackOptions& options) {
 Packing packRectangles(const std::vector<RectSize>& sizes, const PackOptions& options) {
   const Demand demand = addGutters(sizes, options);
   if (sizes.empty()) return {};
-  const int limit = options.singlePage ? options.hardLimit
-                                       : std::max({options.maxPageSize, roundUpTo4(demand.width),
-                                                   roundUpTo4(demand.height)});
-  bool fitted = false;
-  Packing packing = packOnePage(demand, options, std::min(limit, options.hardLimit), fitted);
-  if (fitted) return packing;
+  const int limit = options.singlePage
+                        ? options.hardLimit
+                        : std::max({options.maxPageSize, roundUpTo4(demand.width), roundUpTo4(demand.height)});
+  const double side = std::min(limit, options.hardLimit);
+  if (demand.area <= side * side) {
+    const Packing page = packOnePage(demand, options, static_cast<int>(side));
+    if (page.pageCount == 1) return page;
+  }
   if (options.singlePage) {
     throw Error(ExitCode::outOfResource, "the charts do not fit into one page of " + std::to_string(options.hardLimit) +
                                              " by " + std::to_string(options.hardLimit) + " texels: lower the density");

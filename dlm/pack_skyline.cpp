@@ -34,69 +34,85 @@ std::vector<std::uint32_t> byHeightThenWidth(const std::vector<RectSize>& sizes)
 
 /// Cuts the sorted rectangles into rows. A row is closed when the next does not fit; rectangles of a height that cannot
 /// fill a row stay alone.
-std::vector<Block> makeBlocks(const std::vector<RectSize>& sizes, int pageWidth) {
-  std::vector<Block> blocks;
-  const std::vector<std::uint32_t> order = byHeightThenWidth(sizes);
-  const bool rows = sizes.size() >= kRowsFrom;
+void makeBlocks(const std::vector<RectSize>& sizes, int pageWidth, std::vector<Block>& rows,
+                std::vector<Block>& singles) {
+  const bool useRows = sizes.size() >= kRowsFrom;
   Block row{0, 0, {}};
   const auto dissolve = [&] {
-    for (const std::uint32_t i : row.members) blocks.push_back({sizes[i].width, sizes[i].height, {i}});
+    for (const std::uint32_t i : row.members) singles.push_back({sizes[i].width, sizes[i].height, {i}});
     row = {0, 0, {}};
   };
-  for (const std::uint32_t i : order) {
+  for (const std::uint32_t i : byHeightThenWidth(sizes)) {
     const RectSize size = sizes[i];
-    if (!rows || size.height != row.height) dissolve();
-    row.height = size.height;
+    if (!useRows || size.height != row.height) dissolve();
     if (row.width + size.width > pageWidth) {
-      blocks.push_back(std::move(row));
-      row = {0, size.height, {}};
+      rows.push_back(std::move(row));
+      row = {0, 0, {}};
     }
+    row.height = size.height;
     row.width += size.width;
     row.members.push_back(i);
   }
   dissolve();
-  return blocks;
 }
 
-/// Packs what fits of `left` (indices into blocks) into one more page and removes it from the list.
-void packPage(const std::vector<Block>& blocks, const std::vector<RectSize>& sizes, int pageWidth, int pageHeight,
-              std::vector<std::size_t>& left, SkylinePacking& packing) {
-  std::vector<stbrp_rect> rects(left.size());
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    rects[i] = {static_cast<int>(i), blocks[left[i]].width, blocks[left[i]].height, 0, 0, 0};
+/// One page being filled; what did not fit stays in the list that was given.
+class Page {
+ public:
+  Page(const std::vector<RectSize>& sizes, int width, int height, SkylinePacking& packing)
+      : sizes_(sizes), packing_(packing), number_(packing.pageCount++), nodes_(static_cast<std::size_t>(width)) {
+    stbrp_init_target(&context_, width, height, nodes_.data(), width);
   }
-  std::vector<stbrp_node> nodes(static_cast<std::size_t>(pageWidth));
-  stbrp_context context;
-  stbrp_init_target(&context, pageWidth, pageHeight, nodes.data(), pageWidth);
-  stbrp_pack_rects(&context, rects.data(), static_cast<int>(rects.size()));
-  std::vector<std::size_t> unpacked;
-  for (std::size_t i = 0; i < rects.size(); ++i) {
-    if (!rects[i].was_packed) {
-      unpacked.push_back(left[i]);
-      continue;
+
+  void take(std::vector<Block>& blocks) {
+    std::vector<stbrp_rect> rects(blocks.size());
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      rects[i] = {static_cast<int>(i), blocks[i].width, blocks[i].height, 0, 0, 0};
     }
-    const Block& block = blocks[left[i]];
-    int x = rects[i].x;
+    stbrp_pack_rects(&context_, rects.data(), static_cast<int>(rects.size()));
+    std::vector<Block> left;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      if (rects[i].was_packed)
+        place(blocks[i], rects[i]);
+      else
+        left.push_back(std::move(blocks[i]));
+    }
+    blocks = std::move(left);
+  }
+
+ private:
+  void place(const Block& block, const stbrp_rect& rect) {
+    int x = rect.x;
     for (const std::uint32_t member : block.members) {
-      packing.places[member] = {packing.pageCount, x, rects[i].y};
-      x += sizes[member].width;
+      packing_.places[member] = {number_, x, rect.y};
+      x += sizes_[member].width;
     }
-    packing.usedHeight = std::max(packing.usedHeight, rects[i].y + block.height);
+    packing_.usedHeight = std::max(packing_.usedHeight, rect.y + block.height);
   }
-  ++packing.pageCount;
-  LUCARNE_CHECK_LT(unpacked.size(), left.size());
-  left = std::move(unpacked);
-}
+
+  const std::vector<RectSize>& sizes_;
+  SkylinePacking& packing_;
+  int number_;
+  std::vector<stbrp_node> nodes_;
+  stbrp_context context_;
+};
 
 }  // namespace
 
 SkylinePacking packSkyline(const std::vector<RectSize>& sizes, int pageWidth, int pageHeight) {
   SkylinePacking packing;
   packing.places.resize(sizes.size());
-  const std::vector<Block> blocks = makeBlocks(sizes, pageWidth);
-  std::vector<std::size_t> left(blocks.size());
-  std::iota(left.begin(), left.end(), std::size_t{0});
-  while (!left.empty()) packPage(blocks, sizes, pageWidth, pageHeight, left, packing);
+  std::vector<Block> rows, singles;
+  makeBlocks(sizes, pageWidth, rows, singles);
+  while (!rows.empty() || !singles.empty()) {
+    const std::size_t before = rows.size() + singles.size();
+    Page page(sizes, pageWidth, pageHeight, packing);
+    // Rows first: on top of anything uneven, a row as wide as the page would leave gaps below it that nothing can
+    // reach.
+    page.take(rows);
+    page.take(singles);
+    LUCARNE_CHECK_LT(rows.size() + singles.size(), before);
+  }
   return packing;
 }
 

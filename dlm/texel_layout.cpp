@@ -15,7 +15,8 @@ double texelsAlong(double size, double texelsPerLocal) { return std::max(1.0, st
 /// In floating point, so that no scene overflows it.
 double texelsAt(const ChartSet& set, double texelsPerLocal) {
   double sum = 0;
-  for (const Chart& c : set.charts) sum += texelsAlong(c.size.x, texelsPerLocal) * texelsAlong(c.size.y, texelsPerLocal);
+  for (const Chart& c : set.charts)
+    sum += texelsAlong(c.size.x, texelsPerLocal) * texelsAlong(c.size.y, texelsPerLocal);
   return sum;
 }
 

@@ -29,7 +29,7 @@ struct TexelLayout {
   bool thinned = false;       // the budget lowered it
   std::vector<ChartLayout> charts;
   std::uint64_t texelCount = 0;
-  std::vector<double> area;   // [texel] surface inside, local units², summing to the charts' areas; 0: not covered
+  std::vector<double> area;  // [texel] surface inside, local units², summing to the charts' areas; 0: not covered
 };
 
 /// Throws Error(outOfResource) when even one texel a chart is over the budget.

@@ -51,8 +51,9 @@ void TexelCoverage::add(int x, int y, int count, double area) {
   if (area > 0 && count > 0) runs_.push_back({x, y, count, area});
 }
 
-/// Range of texels of row y that lie wholly inside a band spanning the row: between the left and the right side's innermost
-/// points. A band's corners lie on its upper and lower line, or it has a corner between and the row is not spanned.
+/// Range of texels of row y that lie wholly inside a band spanning the row: between the left and the right side's
+/// innermost points. A band's corners lie on its upper and lower line, or it has a corner between and the row is not
+/// spanned.
 void TexelCoverage::wholeTexels(const Polygon& band, int y, int& first, int& end) {
   double left[2] = {1e300, 1e300}, right[2] = {-1e300, -1e300};
   for (int i = 0; i < band.count; ++i) {
