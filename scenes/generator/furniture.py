@@ -146,7 +146,7 @@ def door(paint, handle_metal, width, height):
 
 _BULB_RADIUS, _BULB_HEIGHT = 0.10, 1.46
 _RIM_HEIGHT = 1.78
-_LAMP_SEGMENTS = 24
+_LAMP_SEGMENTS = 20
 
 
 def uplighter_stand(stem_metal, outside, inside):
@@ -155,8 +155,7 @@ def uplighter_stand(stem_metal, outside, inside):
     No light leaves lower than the line from the lamp's edge over the opposite rim, 45 degrees above the horizon.
     """
     shape = Shape()
-    shape.lathe(stem_metal, [(0.0, 0.0), (0.15, 0.0), (0.15, 0.02), (0.014, 0.035), (0.014, 1.40), (0.0, 1.40)][1:5],
-                _LAMP_SEGMENTS)
+    shape.lathe(stem_metal, [(0.15, 0.0), (0.15, 0.02), (0.014, 0.035), (0.014, 1.40)], _LAMP_SEGMENTS)
     shape.lathe(outside, [(0.014, 1.40), (0.11, 1.425), (0.225, _RIM_HEIGHT), (0.215, _RIM_HEIGHT)], _LAMP_SEGMENTS)
     shape.lathe(inside, [(0.215, _RIM_HEIGHT), (_BULB_RADIUS, _BULB_HEIGHT)], _LAMP_SEGMENTS)
     return shape
@@ -173,18 +172,19 @@ def wall_washer(paint, lamp, width):
     """A board in front of a wall, and the lamp strip on its back, which shines at the wall and up to the ceiling.
 
     The board's lip hides the strip from below: the lowest line from the strip past the lip meets the wall at
-    y = lip - (top of the strip - lip) · (lip to wall) / (strip to lip) = -1.45, which is above the floor where the board
+    y = lip - (top of the strip - lip) · (lip to wall) / (strip to lip) = -2.15, which is above the floor where the board
     hangs higher than that.
     """
     board, strip = Shape(), Shape()
-    front, back, lip_height, lip = 0.265, 0.25, 0.01, 0.225
+    front, back, lip_height, lip = 0.415, 0.40, 0.01, 0.371
     x = width / 2
     board.box(paint, (-x, 0, back), (x, 0.20, front))
     board.box(paint, (-x, 0, lip), (x, lip_height, back), "+z")
     for side in (-1, 1):
         low, high = sorted((side * (x - 0.012), side * x))
         board.box(paint, (low, lip_height, 0), (high, 0.20, back), "-z +z")
-    low, high, face = (-x + 0.1, 0.04, back - 0.005), (x - 0.1, 0.14, back), back - 0.005
+    face = back - 0.005
+    low, high = (-x + 0.1, 0.05, face), (x - 0.1, 0.15, back)
     board.box(paint, low, high, "+z -z")
     strip.quad(lamp, (high[0], low[1], face), (low[0] - high[0], 0, 0), (0, high[1] - low[1], 0))
     return board, strip

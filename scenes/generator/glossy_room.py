@@ -15,7 +15,7 @@ LEFT, RIGHT, BACK, FRONT = -WIDTH / 2, WIDTH / 2, -DEPTH / 2, DEPTH / 2
 SKIRTING = 0.015  # thickness
 EYE = 1.6
 
-FLOOR = glossy("floor_planks", (1.0, 1.0, 1.0), 0.20, planks("planks", (38, 24, 17), (104, 68, 44)))
+FLOOR = glossy("floor_planks", (1.0, 1.0, 1.0), 0.25, planks("planks", (30, 19, 14), (88, 57, 38)))
 TABLE_WOOD = glossy("table_wood", (1.0, 1.0, 1.0), 0.12, wood_grain("cherry", (92, 44, 24), (156, 88, 50)))
 CHAIR_WOOD = glossy("chair_wood", (0.050, 0.026, 0.016), 0.12)
 CHAIR_LEATHER = glossy("chair_leather", (0.30, 0.035, 0.030), 0.08)
@@ -47,7 +47,7 @@ MEADOW = lambert("painting_meadow", (1.0, 1.0, 1.0), hills(
 
 WARM_LAMP = lamp("lamp_warm", (1.0, 0.62, 0.33), 24000.0)
 NEUTRAL_LAMP = lamp("lamp_neutral", (1.0, 0.86, 0.72), 18500.0)
-COOL_LAMP = lamp("lamp_cool", (0.84, 0.93, 1.0), 2600.0)
+COOL_LAMP = lamp("lamp_cool", (0.84, 0.93, 1.0), 4200.0)
 
 
 def glossy_room():
@@ -63,7 +63,7 @@ def glossy_room():
     wide = 16 / 9
     writer.add_camera("entrance", (2.62, EYE, 1.92), (-0.55, 0.72, -1.1), 0.95, wide)
     writer.add_camera("table", (-0.95, 1.25, 1.95), (0.35, 0.62, -0.75), 0.95, wide)
-    writer.add_camera("corner", (-2.55, EYE, -1.35), (0.9, 0.75, 0.75), 0.95, wide)
+    writer.add_camera("corner", (-2.5, EYE, -1.3), (1.1, 0.72, 0.38), 0.95, wide)
     return writer.to_bytes()
 
 
@@ -102,11 +102,11 @@ def _add_door_and_skirting(writer):
 
 def _add_lamps(writer):
     stand = writer.add_mesh("uplighter", furniture.uplighter_stand(BRASS, SHADE_OUTSIDE, SHADE_INSIDE))
-    for side, material, x in (("left", WARM_LAMP, -1.65), ("right", NEUTRAL_LAMP, 1.62)):
+    for side, material, x in (("left", WARM_LAMP, -1.75), ("right", NEUTRAL_LAMP, 1.75)):
         at = (x, 0, -1.72)
         writer.add_node("uplighter_" + side, stand, at)
         writer.add_object("uplighter_" + side + "_lamp", furniture.uplighter_lamp(material), at)
-    board, strip = furniture.wall_washer(WHITE_PAINT, COOL_LAMP, 3.8)
+    board, strip = furniture.wall_washer(WHITE_PAINT, COOL_LAMP, 2.5)
     writer.add_object("wall_washer", board, (0, 2.36, BACK))
     writer.add_object("wall_washer_lamp", strip, (0, 2.36, BACK))
 
@@ -122,10 +122,10 @@ def _add_dining_table(writer):
     outside = [(0.0, 0.0), (0.055, 0.0), (0.055, 0.012)] + smooth_profile(
         [(0.055, 0.012), (0.11, 0.035), (0.145, 0.075), (0.155, 0.115)], 3)[1:]
     inside = smooth_profile([(0.148, 0.115), (0.138, 0.079), (0.102, 0.042), (0.0, 0.022)], 3)
-    bowl.lathe(PORCELAIN, outside + inside, 28)
+    bowl.lathe(PORCELAIN, outside + inside, 24)
     writer.add_object("bowl", bowl, (x - 0.15, 0.75, z + 0.02))
     orange = Shape()
-    orange.lathe(FRUIT, sphere_profile(0.04, 0.0, 9), 14)
+    orange.lathe(FRUIT, sphere_profile(0.04, 0.0, 8), 12)
     mesh = writer.add_mesh("orange", orange)
     for k, (dx, dy, dz) in enumerate(((-0.045, 0.081, 0.03), (0.05, 0.082, 0.028), (0.0, 0.083, -0.055))):
         writer.add_node("orange_%d" % (k + 1), mesh, (x - 0.15 + dx, 0.75 + dy, z + 0.02 + dz))
@@ -138,7 +138,7 @@ def _add_sideboard(writer):
     outside = [(0.0, 0.0), (0.06, 0.0)] + smooth_profile(
         [(0.06, 0.0), (0.105, 0.09), (0.085, 0.20), (0.035, 0.27), (0.05, 0.33)], 5)[1:]
     inside = [(0.043, 0.33), (0.028, 0.27), (0.03, 0.24), (0.0, 0.235)]
-    vase.lathe(CERAMIC, outside + inside, 28)
+    vase.lathe(CERAMIC, outside + inside, 24)
     writer.add_object("vase", vase, (-0.55, 0.82, at[2] + 0.2))
     books = Shape()
     furniture.add_book_row(books, BOOK_CLOTHS, 0.42, 0.80, 0.0, 0.16, 0.20, 21)
@@ -152,8 +152,8 @@ def _add_sitting_corner(writer):
     carpet.quad(RUG_TOP, (-0.55, 0.012, 0.8), (1.1, 0, 0), (0, 0, -1.6), (1.0, 1.0))
     writer.add_object("rug", carpet, (-1.35, 0, 0.2), 4)
     ball = Shape()
-    ball.lathe(BALL, sphere_profile(0.15, 0.15, 18), 28)
-    writer.add_object("ball", ball, (-1.2, 0.012, 0.35))
+    ball.lathe(BALL, sphere_profile(0.15, 0.15, 16), 24)
+    writer.add_object("ball", ball, (1.45, 0, -0.80))
 
 
 def _add_bookcase(writer):
@@ -167,10 +167,12 @@ def _add_bookcase(writer):
 
 
 def _add_wall_things(writer):
-    """Pictures on the back wall, a shelf with books and a box on the left wall."""
+    """Pictures on the back and front walls, a shelf with books and a box on the left wall."""
     for name, canvas, width, height, x, y in (("left", MEADOW, 0.44, 0.55, -1.0, 1.22), ("middle", SUNSET, 0.9, 0.6, 0.0, 1.2),
                                               ("right", MEADOW, 0.44, 0.55, 1.0, 1.22)):
         writer.add_object("picture_" + name, furniture.picture(DARK_FRAME, canvas, width, height), (x, y, BACK))
+    picture = furniture.picture(DARK_FRAME, SUNSET, 0.9, 0.6).turned(2)
+    writer.add_object("picture_front", picture, (0.6, 1.25, FRONT))
     shelf = Shape()
     shelf.box(SHELF_WOOD, (-0.6, 0.0, 0.0), (0.6, 0.03, 0.24), "-z")
     writer.add_object("wall_shelf", shelf.turned(1), (LEFT, 1.4, -0.75))

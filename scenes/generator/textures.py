@@ -79,7 +79,7 @@ def hills(name, width, height, sky, land, seed):
     def horizon(x, k):
         coarse = periodic_noise(x / 32.0, k, 64, 64, seed)
         fine = periodic_noise(x / 9.0, k, 64, 64, seed + 1)
-        return height * (0.36 + 0.20 * k + 0.20 * (coarse - 0.5) + 0.05 * (fine - 0.5))
+        return height * (0.50 + 0.16 * k + 0.20 * (coarse - 0.5) + 0.05 * (fine - 0.5))
 
     def index_at(x, y):
         for k in reversed(range(ranges)):
