@@ -33,13 +33,13 @@ void checkTriangle(const Scene& scene, const LightMaps& maps, std::uint32_t tria
   }
   if (scene.triangles[triangle].material != maps.charts[chart].material) fail("is not of its chart's material");
   for (const std::uint32_t v : scene.triangles[triangle].v) {
-    if (!inside(maps.charts[chart], maps, scene.uv1[v])) fail("lies outside the rectangle of its chart");
+    if (!inside(maps.charts[chart], maps, scene.atlasUv[v])) fail("lies outside the rectangle of its chart");
   }
 }
 
 void checkCharts(const Scene& scene, const LightMaps& maps, const std::string& file) {
   if (scene.chartOfTriangle.size() != scene.triangles.size() ||
-      (scene.uv1.size() != scene.positions.size() && !maps.charts.empty())) {
+      (scene.atlasUv.size() != scene.positions.size() && !maps.charts.empty())) {
     throw InputError(file + ": does not say which chart each triangle belongs to; bake the scene again");
   }
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) checkTriangle(scene, maps, i, file);

@@ -10,7 +10,7 @@
 namespace lucarne {
 
 struct Dlm {
-  Scene scene;  // with chartOfTriangle; uv1 is the place in the irradiance atlas
+  Scene scene;  // with chartOfTriangle; atlasUv is the place in the irradiance atlas
   LightMaps maps;
   nlohmann::json manifest;  // everything that stands in it, provenance included
 };

@@ -116,7 +116,7 @@ SurfacePoint SurfaceFinder::describe(const Candidate& candidate) const {
   const double b[3] = {1 - candidate.b1 - candidate.b2, candidate.b1, candidate.b2};
   Vec2d uv{};
   for (int k = 0; k < 3; ++k) {
-    const Vec2f corner = scene_.uv1[scene_.triangles[candidate.triangle].v[k]];
+    const Vec2f corner = scene_.atlasUv[scene_.triangles[candidate.triangle].v[k]];
     uv = uv + Vec2d{static_cast<double>(corner.x), static_cast<double>(corner.y)} * b[k];
   }
   point.st = {uv.x * maps_.atlasWidth - chart.atlasX, uv.y * maps_.atlasHeight - chart.atlasY};

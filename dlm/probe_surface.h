@@ -19,7 +19,7 @@ struct SurfacePoint {
 
 class SurfaceFinder {
  public:
-  /// Both must outlive the finder. `scene` as read from a .dlm: charts of the triangles, uv1 into the atlas.
+  /// Both must outlive the finder. `scene` as read from a .dlm: charts of the triangles, atlasUv.
   SurfaceFinder(const Scene& scene, const LightMaps& maps);
 
   /// The nearest point of a triangle no farther than one texel of its chart, on a side whose normal has a dot product
