@@ -69,7 +69,8 @@ def sideboard(paint, top_wood, handle_metal, width, depth, height):
     panel = width / doors
     for k in range(doors):
         x0 = -width / 2 + k * panel
-        shape.box(paint, (x0 + 0.008, plinth + 0.01, front), (x0 + panel - 0.008, height - top - 0.01, front + 0.014), "-z")
+        low, high = (x0 + 0.008, plinth + 0.01, front), (x0 + panel - 0.008, height - top - 0.01, front + 0.014)
+        shape.box(paint, low, high, "-z")
         handle = x0 + (0.07 if k == doors - 1 else panel - 0.07)
         shape.box(handle_metal, (handle - 0.007, 0.48, front + 0.014), (handle + 0.007, 0.62, front + 0.034), "-z")
     return shape

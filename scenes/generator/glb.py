@@ -73,7 +73,8 @@ class GlbWriter:
                       "NORMAL": self._float_accessor([vertex[1] for vertex in vertices], "VEC3")}
         if material.texture:
             attributes["TEXCOORD_0"] = self._float_accessor([vertex[2] for vertex in vertices], "VEC2")
-        return {"attributes": attributes, "indices": self._index_accessor(indices), "material": self._material(material)}
+        return {"attributes": attributes, "indices": self._index_accessor(indices),
+                "material": self._material(material)}
 
     def _float_accessor(self, rows, kind, bounds=False):
         rows = [[_float32(value) for value in row] for row in rows]

@@ -168,7 +168,8 @@ def _add_bookcase(writer):
 
 def _add_wall_things(writer):
     """Pictures on the back and front walls, a shelf with books and a box on the left wall."""
-    for name, canvas, width, height, x, y in (("left", MEADOW, 0.44, 0.55, -1.0, 1.22), ("middle", SUNSET, 0.9, 0.6, 0.0, 1.2),
+    for name, canvas, width, height, x, y in (("left", MEADOW, 0.44, 0.55, -1.0, 1.22),
+                                              ("middle", SUNSET, 0.9, 0.6, 0.0, 1.2),
                                               ("right", MEADOW, 0.44, 0.55, 1.0, 1.22)):
         writer.add_object("picture_" + name, furniture.picture(DARK_FRAME, canvas, width, height), (x, y, BACK))
     picture = furniture.picture(DARK_FRAME, SUNSET, 0.9, 0.6).turned(2)

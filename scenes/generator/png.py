@@ -9,15 +9,18 @@ import zlib
 
 
 def indexed_png(width, height, palette, index_at):
-    """A PNG of at most 256 colours. palette: (r, g, b) of 0..255, sRGB; index_at(x, y) is an index into it, row 0 on top."""
+    """A PNG of at most 256 colours.
+
+    palette: (r, g, b) of 0..255, sRGB; index_at(x, y) is an index into it, row 0 on top.
+    """
     rows = bytearray()
     for y in range(height):
         rows.append(0)  # filter: none
         rows.extend(index_at(x, y) for x in range(width))
     header = struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)
     colours = b"".join(bytes(colour) for colour in palette)
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        [_chunk(b"IHDR", header), _chunk(b"PLTE", colours), _chunk(b"IDAT", _stored_zlib(bytes(rows))), _chunk(b"IEND", b"")])
+    chunks = ((b"IHDR", header), (b"PLTE", colours), (b"IDAT", _stored_zlib(bytes(rows))), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(kind, data) for kind, data in chunks)
 
 
 def _chunk(kind, data):

@@ -52,7 +52,7 @@ class Shape:
             surface.add_triangle([corners[n] for n in (i, j, k)], (normal,) * 3, [uvs[n] for n in (i, j, k)])
 
     def box(self, material, low, high, omit=""):
-        """An axis-aligned box without the faces named in omit ("-y +x"), which touch something else and are never seen."""
+        """An axis-aligned box without the faces named in omit ("-y +x"), which touch something and are never seen."""
         dx, dy, dz = subtract(high, low)
         (x0, y0, z0), (x1, y1, z1) = low, high
         faces = {
