@@ -1,0 +1,108 @@
+#include "player/draw_list.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "base/error.h"
+#include "player/map_tables.h"
+
+namespace lucarne {
+namespace {
+
+void checkCharts(const Scene& scene, const LightMaps& maps) {
+  if (scene.chartOfTriangle.size() != scene.triangles.size() || scene.uv1.size() != scene.positions.size()) {
+    throw InputError("the scene does not name the chart of each triangle; bake it again");
+  }
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    if (scene.chartOfTriangle[i] == kNone) continue;
+    LUCARNE_CHECK_LT(scene.chartOfTriangle[i], maps.charts.size());
+    LUCARNE_CHECK_LT(scene.triangles[i].material, scene.materials.size());
+  }
+}
+
+/// The record of a side (gpu_records.h).
+std::uint32_t recordOf(std::uint32_t side) { return side == kNone ? 0 : side + 1; }
+
+/// Place in the chart's rectangle, 0..1, from the place in the atlas.
+Vec2f chartUv(const LightMaps& maps, const MapChart& chart, Vec2f atlasUv) {
+  const double s = static_cast<double>(atlasUv.x) * maps.atlasWidth - chart.atlasX;
+  const double t = static_cast<double>(atlasUv.y) * maps.atlasHeight - chart.atlasY;
+  return {static_cast<float>(s / std::max(chart.width, 1)), static_cast<float>(t / std::max(chart.height, 1))};
+}
+
+GpuVertex corner(const Scene& scene, const LightMaps& maps, std::uint32_t triangle, int k) {
+  const MapChart& chart = maps.charts[scene.chartOfTriangle[triangle]];
+  const std::uint32_t i = scene.triangles[triangle].v[k];
+  const Vec3f p = scene.positions[i];
+  const bool smooth = triangle < scene.smooth.size() && scene.smooth[triangle] != 0;
+  const Vec3f n = smooth ? scene.normals[i] : Vec3f(normalize(scene.scaledNormal(triangle)));
+  const Vec2f uv0 = scene.uv0.empty() ? Vec2f{} : scene.uv0[i], uv1 = scene.uv1[i];
+  const Vec2f c = chartUv(maps, chart, uv1);
+  return {{p.x, p.y, p.z}, {n.x, n.y, n.z}, {uv0.x, uv0.y},          {uv1.x, uv1.y},
+          {c.x, c.y},      recordOf(chart.frontSide), recordOf(chart.backSide)};
+}
+
+}  // namespace
+
+bool isTextured(const Material& m) {
+  return bool(m.baseColorTexture) || bool(m.metallicRoughnessTexture) || (m.emits() && bool(m.emissiveTexture));
+}
+
+GpuMaterial gpuMaterial(const Material& m) {
+  const auto unit = [](float v) { return std::clamp(v, 0.f, 1.f); };
+  const float r = (m.ior - 1) / (m.ior + 1);
+  GpuMaterial g{{unit(m.baseColor.x), unit(m.baseColor.y), unit(m.baseColor.z)},
+                unit(m.metallic),
+                {m.emissive.x, m.emissive.y, m.emissive.z},
+                unit(m.roughness),
+                {m.specularColor.x, m.specularColor.y, m.specularColor.z},
+                unit(m.specular),
+                r * r,
+                {},
+                {},
+                {}};
+  const TextureUse* uses[3] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.emissiveTexture};
+  for (int k = 0; k < 3; ++k) {
+    const TextureUse& use = *uses[k];
+    const float linear[4] = {use.rowU.x, use.rowU.y, use.rowV.x, use.rowV.y};
+    const float offset[4] = {use.offset.x, use.offset.y, use.uvSet == 1 ? 1.f : 0.f, 0.f};
+    std::copy_n(linear, 4, g.linear[k]);
+    std::copy_n(offset, 4, g.offset[k]);
+  }
+  return g;
+}
+
+DrawList buildDrawList(const Scene& scene, const LightMaps& maps) {
+  checkCharts(scene, maps);
+  const auto keyOf = [&](std::uint32_t triangle) {
+    const std::uint32_t chart = scene.chartOfTriangle[triangle], material = scene.triangles[triangle].material;
+    return std::tuple(needsCellTable(maps.charts[chart]), isTextured(scene.materials[material]), material, chart);
+  };
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    if (scene.chartOfTriangle[i] != kNone) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keyOf(a) < keyOf(b); });
+
+  DrawList list;
+  list.vertices.reserve(order.size() * 3);
+  for (const std::uint32_t triangle : order) {
+    const auto [curved, textured, material, chart] = keyOf(triangle);
+    const auto vertex = static_cast<std::uint32_t>(list.vertices.size());
+    if (list.batches.empty() || std::tie(list.batches.back().curved, list.batches.back().material) != std::tie(curved, material)) {
+      list.batches.push_back({curved, textured, material, vertex, 0, static_cast<std::uint32_t>(list.runs.size()), 0});
+    }
+    Batch& batch = list.batches.back();
+    if (batch.runCount == 0 || list.runs.back().chart != chart) {
+      list.runs.push_back({chart, vertex, 0});
+      ++batch.runCount;
+    }
+    for (int k = 0; k < 3; ++k) list.vertices.push_back(corner(scene, maps, triangle, k));
+    list.runs.back().vertexCount += 3;
+    batch.vertexCount += 3;
+  }
+  return list;
+}
+
+}  // namespace lucarne

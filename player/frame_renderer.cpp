@@ -1,0 +1,102 @@
+#include "player/frame_renderer.h"
+
+#include <cmath>
+
+namespace lucarne {
+namespace {
+
+/// The near plane, local units: 0.2 mm in a room of five metres. Depth is reversed floats, which keep their precision.
+constexpr double kNear = 1e-4;
+
+struct CameraBlock {  // camera.glsl, std140
+  float eye[4], right[4], up[4], back[4], projection[4];
+};
+
+void set(float (&to)[4], Vec3d v, double w = 0) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
+  to[3] = static_cast<float>(w);
+}
+
+ProgramConstants constantsOf(const GpuMaps& maps, float outputScale) {
+  return {maps.cellSharpness, maps.mapUnit, outputScale, maps.layersPerStrip, maps.cellTableNodes, maps.cellTableLayers};
+}
+
+/// State that no pass changes back.
+void setFixedState(const FrameTarget& target) {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glViewport(0, 0, target.width, target.height);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_BLEND);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glEnable(GL_DEPTH_TEST);
+}
+
+}  // namespace
+
+FrameRenderer::FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale)
+    : maps_(uploadMaps(maps, format)),
+      scene_(scene, maps),
+      programs_(constantsOf(maps_, outputScale)),
+      camera_(makeBuffer(std::as_bytes(std::span<const CameraBlock, 1>(std::array<CameraBlock, 1>{})), GL_DYNAMIC_STORAGE_BIT)),
+      singlepass_(makeSinglepass(scene_.list)),
+      multipass_(makeMultipass(scene_.list, maps)) {
+  stats_.textureBytes = maps_.textureBytes + scene_.textures.bytes();
+  stats_.lightMapBytes = maps_.lightMapBytes;
+  stats_.directions = maps.directionCount;
+}
+
+void FrameRenderer::uploadCamera(const FrameView& view, const FrameTarget& target) const {
+  const Camera& c = view.camera;
+  const double y = 1 / std::tan(c.yfov / 2), x = y * target.height / target.width;
+  CameraBlock block{};
+  set(block.eye, c.position, kNear);
+  set(block.right, c.right);
+  set(block.up, c.up);
+  set(block.back, c.back);
+  set(block.projection, {x, y, 2 * view.shiftX / target.width}, 2 * view.shiftY / target.height);
+  glNamedBufferSubData(camera_.get(), 0, sizeof block, &block);
+}
+
+void FrameRenderer::prepass(const FrameTarget& target) const {
+  constexpr GLuint kNobody[4] = {~0u, 0, 0, 0};
+  constexpr GLfloat kFar = 0;
+  glBindFramebuffer(GL_FRAMEBUFFER, target.prepass.get());
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_GREATER);
+  glClearBufferuiv(GL_COLOR, 0, kNobody);
+  glClearBufferfv(GL_DEPTH, 0, &kFar);
+  glUseProgram(programs_.prepass().get());
+  glDrawArrays(GL_TRIANGLES, 0, scene_.vertexCount);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_EQUAL);
+}
+
+void FrameRenderer::bindCommon(const FrameTarget& target) const {
+  glBindVertexArray(scene_.layout.get());
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, camera_.get());
+  const GLuint buffers[] = {maps_.sides.get(), scene_.materials.get(), maps_.cells.get(), maps_.memberBits.get()};
+  for (GLuint i = 0; i < 4; ++i) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
+  const GLuint textures[] = {maps_.directional.get(), maps_.irradiance.get(), maps_.cellTable.get(), scene_.specularTable.get()};
+  for (GLuint i = 0; i < 4; ++i) glBindTextureUnit(i, textures[i]);
+  glBindTextureUnit(8, target.owner.get());
+}
+
+void FrameRenderer::draw(const FrameView& view, RendererKind renderer, const FrameTarget& target) {
+  constexpr GLfloat kBlack[4] = {};
+  MapRenderer& shading = renderer == RendererKind::multipass ? *multipass_ : *singlepass_;
+  setFixedState(target);
+  uploadCamera(view, target);
+  bindCommon(target);
+  glClearNamedFramebufferfv(target.shading.get(), GL_COLOR, 0, kBlack);
+  state_.reset();
+  prepass(target);
+  state_.countDraw();
+  shading.shade({scene_, maps_, programs_}, target, state_);
+  glDepthMask(GL_TRUE);
+  stats_.counts = state_.counts();
+  stats_.unsorted = shading.unsorted();
+  ++stats_.unsorted.draws;
+}
+
+}  // namespace lucarne

@@ -1,0 +1,42 @@
+// Draws frames of one scene with its light maps; needs a current OpenGL 4.5 context for its whole life. The same code serves the
+// window and the offscreen pictures.
+#pragma once
+
+#include <memory>
+
+#include "player/map_renderer.h"
+#include "player/render_options.h"
+
+namespace lucarne {
+
+struct FrameView {
+  Camera camera;
+  double shiftX = 0, shiftY = 0;  // of the whole image, in pixels (for supersampling)
+};
+
+class FrameRenderer {
+ public:
+  /// `scene` is needed only here. `outputScale`: target units per cd/m².
+  FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale = 1.f);
+
+  /// Fills target.color with outputScale · cd/m²; black where nothing is.
+  void draw(const FrameView& view, RendererKind renderer, const FrameTarget& target);
+
+  /// Of the last frame drawn; times are left to the caller.
+  const RenderStats& stats() const { return stats_; }
+
+ private:
+  void uploadCamera(const FrameView& view, const FrameTarget& target) const;
+  void prepass(const FrameTarget& target) const;
+  void bindCommon(const FrameTarget& target) const;
+
+  GpuMaps maps_;
+  GpuScene scene_;
+  Programs programs_;
+  GlBuffer camera_;
+  std::unique_ptr<MapRenderer> singlepass_, multipass_;
+  DrawState state_;
+  RenderStats stats_;
+};
+
+}  // namespace lucarne

@@ -1,0 +1,31 @@
+// Light maps laid out for the shaders, still in memory: where each side's texels go, and its list of cells.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dlm/direction_set.h"
+#include "dlm/light_maps.h"
+#include "player/cell_tables.h"
+#include "player/gpu_records.h"
+#include "player/layered_pack.h"
+
+namespace lucarne {
+
+struct MapTables {
+  std::vector<GpuSide> sides;  // [0] absorbs
+  // Of planar charts vec4(mean direction, C); of the others ψ in the last component, the rest unused.
+  std::vector<LobeTexel> cells;
+  int wordsPerSide = 1;                 // ⌈|Ω|/32⌉
+  std::vector<GpuMemberBits> memberBits;  // [record · wordsPerSide + ψ/32]
+  int layersPerStrip = 1;
+  LayeredPacking directional, irradiance;
+};
+
+/// A chart whose cells depend on the fragment's normal.
+inline bool needsCellTable(const MapChart& chart) { return !chart.planar || chart.smooth; }
+
+/// Checks the indices of `maps` against each other (std::logic_error: a reader let them through).
+MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const TextureLimits& limits);
+
+}  // namespace lucarne

@@ -1,0 +1,174 @@
+#include "player/map_upload.h"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+
+#include "base/error.h"
+#include "player/lobe.h"
+#include "player/texel_formats.h"
+
+namespace lucarne {
+namespace {
+
+/// How a texel of the directional maps is stored.
+struct TexelCoding {
+  GLenum internal, layout, type;
+  std::size_t bytes;
+  std::function<void(Rgb value, std::byte* to)> write;
+};
+
+template <class T>
+void store(const T& value, std::byte* to) {
+  std::memcpy(to, &value, sizeof value);
+}
+
+TexelCoding codingOf(LightMapFormat format) {
+  switch (format) {
+    case LightMapFormat::float32:
+      return {GL_RGBA32F, GL_RGB, GL_FLOAT, 12, [](Rgb v, std::byte* to) { store(v, to); }};
+    case LightMapFormat::rgb9e5:
+      return {GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4, [](Rgb v, std::byte* to) { store(packRgb9e5(v), to); }};
+    case LightMapFormat::half:
+      break;
+  }
+  return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, [](Rgb v, std::byte* to) {
+            store(std::array<std::uint16_t, 4>{packHalf(v.x), packHalf(v.y), packHalf(v.z), 0}, to);
+          }};
+}
+
+std::uint64_t gpuTexelBytes(LightMapFormat format) {
+  return format == LightMapFormat::float32 ? 16 : format == LightMapFormat::half ? 8 : 4;
+}
+
+/// A rectangle of one layer: the texels of one ψ of one side.
+struct Rectangle {
+  const Rgb* texels = nullptr;
+  LayeredPlace place;
+  int width = 0, height = 0;
+};
+
+/// Everything that lies in each layer.
+std::vector<std::vector<Rectangle>> rectanglesByLayer(const LightMaps& maps, const MapTables& tables) {
+  std::vector<std::vector<Rectangle>> layers(static_cast<std::size_t>(tables.directional.layers));
+  for (std::size_t i = 0; i < maps.sides.size(); ++i) {
+    const SideMaps& side = maps.sides[i];
+    if (!side.lit) continue;
+    int rank = 0;
+    for (const SideDirection& d : side.directions) {
+      if (!d.stored()) continue;
+      LayeredPlace place = tables.directional.places[i];
+      place.x += rank / tables.layersPerStrip * side.width;
+      place.layer += rank % tables.layersPerStrip;
+      layers[static_cast<std::size_t>(place.layer)].push_back({&maps.directional[d.first], place, side.width, side.height});
+      ++rank;
+    }
+  }
+  return layers;
+}
+
+GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, LightMapFormat format, float scale) {
+  const LayeredPacking& packing = tables.directional;
+  const TexelCoding coding = codingOf(format);
+  GlTexture texture = makeTexture({GL_TEXTURE_2D_ARRAY, coding.internal, 1, packing.width, packing.height, packing.layers});
+  const auto pitch = static_cast<std::size_t>(packing.width) * coding.bytes;
+  std::vector<std::byte> page(pitch * static_cast<std::size_t>(packing.height));
+  const auto layers = rectanglesByLayer(maps, tables);
+  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+    std::fill(page.begin(), page.end(), std::byte{0});
+    for (const Rectangle& r : layers[layer]) {
+      const Rgb* from = r.texels;
+      for (int y = 0; y < r.height; ++y) {
+        std::byte* to = page.data() + static_cast<std::size_t>(r.place.y + y) * pitch + static_cast<std::size_t>(r.place.x) * coding.bytes;
+        for (int x = 0; x < r.width; ++x, ++from, to += coding.bytes) coding.write(*from * scale, to);
+      }
+    }
+    glTextureSubImage3D(texture.get(), 0, 0, 0, static_cast<GLint>(layer), packing.width, packing.height, 1, coding.layout,
+                        coding.type, page.data());
+  }
+  return texture;
+}
+
+GlTexture uploadIrradiance(const LightMaps& maps, const LayeredPacking& packing) {
+  GlTexture texture = makeTexture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F, 1, packing.width, packing.height, packing.layers});
+  glClearTexImage(texture.get(), 0, GL_RGBA, GL_FLOAT, nullptr);
+  for (std::size_t i = 0; i < maps.sides.size(); ++i) {
+    const SideMaps& side = maps.sides[i];
+    if (!side.lit) continue;
+    const LayeredPlace& place = packing.places[i];
+    glTextureSubImage3D(texture.get(), 0, place.x, place.y, place.layer, side.width, side.height, 1, GL_RGB, GL_FLOAT,
+                        &maps.irradiance[side.firstTexel]);
+  }
+  return texture;
+}
+
+bool anyNeedsCellTable(const LightMaps& maps) {
+  return std::any_of(maps.sides.begin(), maps.sides.end(), [&](const SideMaps& side) {
+    return side.lit && !side.directions.empty() && needsCellTable(maps.charts[side.chart]);
+  });
+}
+
+void uploadCellTable(const DirectionSet& set, const TextureLimits& limits, GpuMaps& gpu) {
+  const CellTable table(set, limits.layers);
+  const int width = table.nodes() * table.tiles();
+  gpu.cellTable = makeTexture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F, 1, width, table.nodes(), table.layers()});
+  glTextureSubImage3D(gpu.cellTable.get(), 0, 0, 0, 0, width, table.nodes(), table.layers(), GL_RGBA, GL_FLOAT,
+                      table.texels().data());
+  gpu.cellTableNodes = table.nodes();
+  gpu.cellTableLayers = table.layers();
+  gpu.textureBytes += table.texels().size() * sizeof(LobeTexel);
+}
+
+float largestValue(const std::vector<Rgb>& values) {
+  float largest = 0;
+  for (const Rgb& v : values) largest = std::max(largest, maxComponent(v));
+  return largest;
+}
+
+template <class T>
+GlBuffer storageBuffer(const std::vector<T>& values) {
+  GLint64 limit = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  if (values.size() * sizeof(T) > static_cast<std::uint64_t>(limit)) {
+    throw Error(ExitCode::outOfResource, "the lists of light directions are larger than OpenGL allows; bake with fewer --directions");
+  }
+  return makeBuffer(std::span<const T>(values));
+}
+
+}  // namespace
+
+TextureLimits textureLimits() {
+  TextureLimits limits;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limits.size);
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &limits.layers);
+  return limits;
+}
+
+GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format) {
+  const DirectionSet set(maps.directionCount);
+  const TextureLimits limits = textureLimits();
+  const MapTables tables = layOutMaps(maps, set, limits);
+  const float scale = format == LightMapFormat::float32 ? 1.f : halfScale(largestValue(maps.directional));
+
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  GpuMaps gpu;
+  gpu.directional = uploadDirectional(maps, tables, format, scale);
+  gpu.irradiance = uploadIrradiance(maps, tables.irradiance);
+  gpu.lightMapBytes = tables.directional.texels() * gpuTexelBytes(format);
+  gpu.textureBytes = gpu.lightMapBytes + tables.irradiance.texels() * 16;
+  if (anyNeedsCellTable(maps)) {
+    uploadCellTable(set, limits, gpu);
+  } else {
+    gpu.cellTable = makeTexture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F, 1, 1, 1, 1});
+  }
+  gpu.sides = storageBuffer(tables.sides);
+  gpu.cells = storageBuffer(tables.cells);
+  gpu.memberBits = storageBuffer(tables.memberBits);
+  gpu.layersPerStrip = tables.layersPerStrip;
+  gpu.wordsPerSide = tables.wordsPerSide;
+  gpu.mapUnit = 1.f / scale;
+  gpu.cellSharpness = cellSharpness(maps.directionCount);
+  return gpu;
+}
+
+}  // namespace lucarne

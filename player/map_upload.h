@@ -1,0 +1,29 @@
+// Light maps as OpenGL objects.
+#pragma once
+
+#include "dlm/light_maps.h"
+#include "player/gl_objects.h"
+#include "player/map_tables.h"
+#include "player/render_options.h"
+
+namespace lucarne {
+
+struct GpuMaps {
+  GlTexture directional;  // 2D array
+  GlTexture irradiance;   // 2D array, 32-bit float, lx
+  GlTexture cellTable;    // 2D array; one empty texel where no chart needs it
+  GlBuffer sides, cells, memberBits;
+  int cellTableNodes = 1, cellTableLayers = 1;
+  int layersPerStrip = 1, wordsPerSide = 1;
+  float mapUnit = 1;        // lx per stored unit of `directional`, a power of two
+  float cellSharpness = 1;  // λ of a cell
+  std::uint64_t lightMapBytes = 0, textureBytes = 0;  // the directional maps; all textures here
+};
+
+/// Limits of the current context.
+TextureLimits textureLimits();
+
+/// Error(outOfResource) when the maps do not fit. Needs a current context.
+GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format);
+
+}  // namespace lucarne

@@ -1,0 +1,59 @@
+#include "player/programs.h"
+
+#include "player/shader_library.h"
+
+namespace lucarne {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+GlProgram build(const std::string& name, const Names& vertex, const Names& fragment,
+                const std::vector<std::string>& defines = {}) {
+  return makeProgram(name, assembleShader(vertex, defines), assembleShader(fragment, defines));
+}
+
+Names fragmentFiles(PassKind pass) {
+  switch (pass) {
+    case PassKind::direction:
+      return {"surface.glsl", "cells.glsl", "direction_pass.glsl"};
+    case PassKind::compose:
+      return {"surface.glsl", "compose.glsl", "compose_pass.glsl"};
+    case PassKind::singlepass:
+      break;
+  }
+  return {"surface.glsl", "cells.glsl", "compose.glsl", "singlepass.glsl"};
+}
+
+void setConstants(GLuint program, const ProgramConstants& c) {
+  const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
+  glProgramUniform1f(program, at("cellSharpness"), c.cellSharpness);
+  glProgramUniform1f(program, at("mapUnit"), c.mapUnit);
+  glProgramUniform1f(program, at("outputScale"), c.outputScale);
+  glProgramUniform1i(program, at("layersPerStrip"), c.layersPerStrip);
+  glProgramUniform2i(program, at("cellTableShape"), c.cellTableNodes, c.cellTableLayers);
+}
+
+}  // namespace
+
+Programs::Programs(const ProgramConstants& constants)
+    : constants_(constants),
+      prepass_(build("prepass", {"camera.glsl", "prepass_vertex.glsl"}, {"prepass_fragment.glsl"})) {}
+
+const ShadingProgram& Programs::shading(PassKind pass, bool curved, bool textured) {
+  if (pass == PassKind::compose) curved = false;  // it looks at no cells
+  const auto key = std::tuple(pass, curved, textured);
+  const auto found = shading_.find(key);
+  if (found != shading_.end()) return found->second;
+
+  std::vector<std::string> defines;
+  if (curved) defines.emplace_back("CURVED");
+  if (textured) defines.emplace_back("TEXTURED");
+  const Names files = fragmentFiles(pass);
+  ShadingProgram made{build(std::string(files.back()), {"camera.glsl", "surface_vertex.glsl"}, files, defines)};
+  setConstants(made.program.get(), constants_);
+  made.materialIndex = glGetUniformLocation(made.program.get(), "materialIndex");
+  made.direction = glGetUniformLocation(made.program.get(), "direction");
+  return shading_.emplace(key, std::move(made)).first->second;
+}
+
+}  // namespace lucarne

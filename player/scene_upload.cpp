@@ -1,0 +1,68 @@
+#include "player/scene_upload.h"
+
+#include <cstddef>
+
+#include "base/error.h"
+#include "tracer/optics/specular_table.h"
+
+namespace lucarne {
+namespace {
+
+GlVertexArray vertexLayout(const GlBuffer& vertices) {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  GlVertexArray layout(name);
+  glVertexArrayVertexBuffer(name, 0, vertices.get(), 0, sizeof(GpuVertex));
+  struct Attribute {
+    GLint components;
+    std::size_t offset;
+  };
+  constexpr Attribute floats[] = {{3, offsetof(GpuVertex, position)},
+                                  {3, offsetof(GpuVertex, normal)},
+                                  {2, offsetof(GpuVertex, uv0)},
+                                  {2, offsetof(GpuVertex, uv1)},
+                                  {2, offsetof(GpuVertex, chartUv)}};
+  GLuint index = 0;
+  for (const Attribute& a : floats) {
+    glVertexArrayAttribFormat(name, index, a.components, GL_FLOAT, GL_FALSE, static_cast<GLuint>(a.offset));
+    ++index;
+  }
+  glVertexArrayAttribIFormat(name, index, 2, GL_UNSIGNED_INT, offsetof(GpuVertex, frontSide));
+  for (GLuint i = 0; i <= index; ++i) {
+    glVertexArrayAttribBinding(name, i, 0);
+    glEnableVertexArrayAttrib(name, i);
+  }
+  return layout;
+}
+
+GlTexture uploadSpecularTable() {
+  constexpr int n = SpecularTable::kSize;
+  const SpecularTable& table = SpecularTable::instance();
+  std::vector<Vec2f> nodes;
+  for (int j = 0; j < n; ++j) {
+    const float roughness = static_cast<float>(j) / (n - 1);
+    for (int i = 0; i < n; ++i) nodes.push_back(table.scaleBias(static_cast<float>(i) / (n - 1), roughness * roughness));
+  }
+  GlTexture texture = makeTexture({GL_TEXTURE_2D, GL_RG32F, 1, n, n, 1});
+  glTextureSubImage2D(texture.get(), 0, 0, 0, n, n, GL_RG, GL_FLOAT, nodes.data());
+  return texture;
+}
+
+GlBuffer uploadMaterials(const Scene& scene) {
+  std::vector<GpuMaterial> materials;
+  for (const Material& m : scene.materials) materials.push_back(gpuMaterial(m));
+  return makeBuffer(std::span<const GpuMaterial>(materials));
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene, const LightMaps& maps) : list(buildDrawList(scene, maps)), textures(scene) {
+  vertices = makeBuffer(std::span<const GpuVertex>(list.vertices));
+  vertexCount = static_cast<GLsizei>(list.vertices.size());
+  list.vertices = {};
+  layout = vertexLayout(vertices);
+  materials = uploadMaterials(scene);
+  specularTable = uploadSpecularTable();
+}
+
+}  // namespace lucarne

@@ -1,0 +1,256 @@
+#include <cmath>
+#include <numbers>
+
+#include "player/cell_tables.h"
+#include "player/lobe.h"
+#include "player/offscreen.h"
+#include "tests/player/gl_available.h"
+#include "tests/player/synthetic_maps.h"
+#include "tracer/optics/phong.h"
+#include "tracer/optics/specular_table.h"
+#include "tracer/optics/surface.h"
+
+namespace lucarne {
+namespace {
+
+using test::BakedScene;
+
+ImageRgb render(const BakedScene& baked, RendererKind renderer, LightMapFormat format, int width, int height,
+                RenderStats* stats = nullptr) {
+  return renderImage(baked.scene, baked.maps, baked.scene.cameras.at(0), {width, height, renderer, format}, stats);
+}
+
+double meanOf(const ImageRgb& image) {
+  double sum = 0;
+  for (const Rgb& p : image.pixels) sum += mean(p);
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+double largestDifference(const ImageRgb& a, const ImageRgb& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const Rgb d = a.pixels[i] - b.pixels[i];
+    largest = std::max<double>(largest, std::max(maxComponent(d), -minComponent(d)));
+  }
+  return largest;
+}
+
+const Rgb& centre(const ImageRgb& image) {
+  return image.pixels[static_cast<std::size_t>(image.height / 2 * image.width + image.width / 2)];
+}
+
+class Renderers : public test::GlTest {};
+
+TEST_F(Renderers, SinglepassAndMultipassAgreeOnEveryKindOfSide) {
+  for (const int directions : {1, 14, 40}) {
+    const BakedScene baked = test::furnishedRoom(directions);
+    const ImageRgb single = render(baked, RendererKind::singlepass, LightMapFormat::float32, 257, 89);
+    const ImageRgb multi = render(baked, RendererKind::multipass, LightMapFormat::float32, 257, 89);
+    ASSERT_GT(meanOf(single), 0);
+    EXPECT_LT(largestDifference(single, multi), 1e-3 * meanOf(single)) << directions << " directions";
+  }
+}
+
+TEST_F(Renderers, TheSameInputGivesTheSameBits) {
+  const BakedScene baked = test::furnishedRoom(14);
+  for (const RendererKind kind : {RendererKind::singlepass, RendererKind::multipass}) {
+    const ImageRgb a = render(baked, kind, LightMapFormat::half, 131, 77), b = render(baked, kind, LightMapFormat::half, 131, 77);
+    EXPECT_EQ(a.pixels, b.pixels);
+  }
+}
+
+TEST_F(Renderers, CompactFormatsStayCloseToFloat) {
+  const BakedScene baked = test::furnishedRoom(14);
+  const ImageRgb exact = render(baked, RendererKind::singlepass, LightMapFormat::float32, 160, 120);
+  const ImageRgb half = render(baked, RendererKind::singlepass, LightMapFormat::half, 160, 120);
+  const ImageRgb shared = render(baked, RendererKind::singlepass, LightMapFormat::rgb9e5, 160, 120);
+  EXPECT_NEAR(meanOf(half) / meanOf(exact), 1, 1e-3);
+  EXPECT_NEAR(meanOf(shared) / meanOf(exact), 1, 1e-3);
+  EXPECT_GT(largestDifference(shared, exact), 0);  // they are another format indeed
+}
+
+TEST_F(Renderers, CountersShowWhatSortingSaves) {
+  const BakedScene baked = test::furnishedRoom(14);
+  RenderStats stats;
+  render(baked, RendererKind::multipass, LightMapFormat::float32, 16, 16, &stats);
+  EXPECT_EQ(stats.counts.directionSwitches, 14u);
+  EXPECT_GT(stats.unsorted.directionSwitches, 100u);
+  EXPECT_LT(stats.counts.draws, stats.unsorted.draws);
+  render(baked, RendererKind::singlepass, LightMapFormat::float32, 16, 16, &stats);
+  EXPECT_EQ(stats.counts.directionSwitches, 0u);
+  EXPECT_EQ(stats.counts.draws, 1u + 6u);  // the pre-pass and one a material
+  EXPECT_GT(stats.textureBytes, stats.lightMapBytes);
+}
+
+/// Looks straight or aslant at the middle of a square of 2 m.
+BakedScene plate(int directions, const Material& material, const test::IncidentRadiance& light, Vec3d eye,
+                 test::SideSpec front = {}, std::optional<test::SideSpec> back = std::nullopt) {
+  test::BakedSceneBuilder b(directions, light);
+  b.addQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, b.addMaterial(material), 8, 8, front, back);
+  b.addCamera(eye, {0.01, 0.01, 0}, 0.2);
+  return b.build();
+}
+
+TEST_F(Renderers, DiffuseLightIsAlbedoOverPiTimesIrradiance) {
+  const Rgb albedo{0.8f, 0.4f, 0.2f}, L{10.f, 20.f, 30.f};
+  const BakedScene baked = plate(14, test::diffuseMaterial(albedo), test::constantRadiance(L), {0.5, 0.3, 2}, {true, false, 0});
+  const Rgb Lo = centre(render(baked, RendererKind::singlepass, LightMapFormat::half, 33, 17));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lo[c], albedo[c] * L[c], 1e-4f * L[c]);  // E = π·L
+}
+
+TEST_F(Renderers, EmissionIsAddedAndUnlitSidesShowNothingElse) {
+  Material m = test::diffuseMaterial({0.5f, 0.5f, 0.5f}, {7.f, 8.f, 9.f});
+  const BakedScene baked = plate(14, m, test::constantRadiance(Rgb(100.f)), {0, 0, 2}, {false, false, 0});
+  const ImageRgb image = render(baked, RendererKind::singlepass, LightMapFormat::half, 9, 9);
+  EXPECT_EQ(centre(image), (Rgb{7.f, 8.f, 9.f}));
+}
+
+TEST_F(Renderers, ABackThatAbsorbsIsBlackAndATwoSidedOneHasItsOwnLight) {
+  const auto light = [](Vec3d, Vec3d direction) { return direction.z > 0 ? Rgb(1.f) : Rgb(5.f); };
+  const Material m = test::diffuseMaterial(Rgb(1.f), Rgb(3.f));
+  const BakedScene oneSided = plate(64, m, light, {0, 0, -2}, {true, false, 0});
+  EXPECT_EQ(centre(render(oneSided, RendererKind::singlepass, LightMapFormat::half, 9, 9)), Rgb(0.f));
+  const BakedScene both = plate(64, m, light, {0, 0, -2}, {true, false, 0}, test::SideSpec{true, false, 0});
+  EXPECT_NEAR(centre(render(both, RendererKind::singlepass, LightMapFormat::half, 9, 9)).x, 3 + 5, 0.4);
+}
+
+Material coat(float exponent) {
+  Material m;
+  m.baseColor = {0.9f, 0.6f, 0.3f};
+  m.metallic = 1;
+  m.roughness = roughnessFromPhong(exponent);
+  return m;
+}
+
+/// Largest relative difference from L·ρ(cosθ) over all pixels that show something; θ from the geometry of each pixel.
+template <class CosineAt>
+double worstHighlight(const BakedScene& baked, float L, const CosineAt& cosineAt, int size) {
+  const ImageRgb image = render(baked, RendererKind::singlepass, LightMapFormat::float32, size, size);
+  const Bsdf bsdf = makeBsdf(baked.scene.materials[0], baked.scene.materials[0].baseColor, 1, baked.scene.materials[0].roughness);
+  double worst = 0;
+  int shown = 0;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Rgb seen = image.pixels[static_cast<std::size_t>(y * size + x)];
+      const double cosine = cosineAt(x, y);
+      if (seen.x <= 0 || cosine < 0.15) continue;
+      ++shown;
+      const Vec2f sb = SpecularTable::instance().scaleBias(static_cast<float>(cosine), bsdf.alpha);
+      const Rgb expected = (bsdf.f0 * sb.x + bsdf.f90 * sb.y) * L;
+      for (int c = 0; c < 3; ++c) worst = std::max<double>(worst, std::abs(seen[c] / expected[c] - 1));
+    }
+  }
+  EXPECT_GT(shown, size * size / 4);
+  return worst;
+}
+
+/// Unit direction from the eye through the middle of a pixel.
+Vec3d rayThrough(const Camera& camera, int x, int y, int size) {
+  const double t = std::tan(camera.yfov / 2);
+  const double u = (2 * (x + 0.5) / size - 1) * t, v = (1 - 2 * (y + 0.5) / size) * t;
+  return normalize(camera.right * u + camera.up * v - camera.back);
+}
+
+TEST_F(Renderers, ConstantLightGivesAConstantHighlightOnAFlatPlate) {
+  constexpr int kSize = 25;
+  for (const int directions : {14, 32, 64, 256}) {
+    for (const float exponent : {1.f, 3.f, 10.f, 30.f, 100.f}) {
+      const BakedScene baked = plate(directions, coat(exponent), test::constantRadiance(Rgb(2.f)), {1.5, 0.4, 1.2});
+      const Camera& camera = baked.scene.cameras[0];
+      const double worst =
+          worstHighlight(baked, 2.f, [&](int x, int y) { return -rayThrough(camera, x, y, kSize).z; }, kSize);
+      EXPECT_LT(worst, 2e-3) << directions << " directions, exponent " << exponent;
+    }
+  }
+}
+
+TEST_F(Renderers, ConstantLightGivesAConstantHighlightOnASphere) {
+  constexpr int kSize = 31;
+  for (const int directions : {14, 32, 64, 256}) {
+    test::BakedSceneBuilder b(directions, test::constantRadiance(Rgb(2.f)));
+    b.addSphere({0, 0, 0}, 1, b.addMaterial(coat(1)), 24, 24);
+    b.addCamera({3, 2, 4}, {0, 0, 0}, 0.4);
+    BakedScene baked = b.build();
+    const Camera& camera = baked.scene.cameras[0];
+    const double radius = 1 / baked.scene.frame.scale;
+    const auto cosineAt = [&](int x, int y) {  // at the first meeting with the sphere around the local origin
+      const Vec3d d = rayThrough(camera, x, y, kSize);
+      const double along = dot(camera.position, d), rest = along * along - dot(camera.position, camera.position) + radius * radius;
+      if (rest <= 0) return 0.;
+      return -dot(normalize(camera.position - d * (along + std::sqrt(rest))), d);
+    };
+    for (const float exponent : {1.f, 3.f, 10.f, 30.f, 100.f}) {
+      baked.scene.materials[0] = coat(exponent);
+      EXPECT_LT(worstHighlight(baked, 2.f, cosineAt, kSize), 2e-2) << directions << " directions, exponent " << exponent;
+    }
+  }
+}
+
+TEST_F(Renderers, AgreesWithTheReferenceOnThePlate) {
+  // Light that depends on direction alone, so every texel holds the same and bilinear lookup adds nothing.
+  const auto light = [](Vec3d, Vec3d d) { return Rgb{1.f, 2.f, 3.f} * static_cast<float>(std::exp(3 * (d.x + d.z))); };
+  Material m = coat(20);
+  m.metallic = 0.4f;
+  const BakedScene baked = plate(32, m, light, {-1, 0.3, 1}, {true, true, 4});
+  const Camera& camera = baked.scene.cameras[0];
+  const ImageRgb image = render(baked, RendererKind::singlepass, LightMapFormat::float32, 25, 25);
+  const SideMaps& side = baked.maps.sides[0];
+  const DirectionSet set(32);
+  std::vector<LobeCell> cells;
+  std::vector<Rgb> values;
+  for (const SideDirection& d : side.directions) {
+    cells.push_back(lobeCell(set, d.psi, {0, 0, 1}));
+    values.push_back(d.stored() ? baked.maps.directional[d.first] : Rgb{});
+  }
+  const Material& material = baked.scene.materials[0];
+  const Bsdf bsdf = makeBsdf(material, material.baseColor, material.metallic, material.roughness);
+  for (int y = 0; y < 25; ++y) {
+    for (int x = 0; x < 25; ++x) {
+      const Vec3f toEye(-rayThrough(camera, x, y, 25));
+      const Rgb expected = reflectedRadiance({{0, 0, 1}, toEye, 32}, bsdf, cells, values, baked.maps.irradiance[0]);
+      const Rgb seen = image.pixels[static_cast<std::size_t>(y * 25 + x)];
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 2e-3f * expected[c]);
+    }
+  }
+}
+
+TEST_F(Renderers, DrawsAtTheExtremesOfLight) {
+  for (const float L : {1e-12f, 1e12f}) {
+    const BakedScene baked = plate(14, coat(10), test::constantRadiance(Rgb(L)), {1, 0, 1});
+    for (const LightMapFormat format : {LightMapFormat::half, LightMapFormat::rgb9e5, LightMapFormat::float32}) {
+      const Rgb Lo = centre(render(baked, RendererKind::singlepass, format, 8, 8)) / L;
+      EXPECT_GT(Lo.x, 0.5f);
+      EXPECT_LT(Lo.x, 1.0f);
+    }
+  }
+}
+
+TEST_F(Renderers, RowsGoFromTheTopAndColumnsFromTheLeft) {
+  const auto light = [](Vec3d p, Vec3d) { return Rgb{static_cast<float>(p.x + 1), static_cast<float>(p.y + 1), 1.f}; };
+  const BakedScene baked = plate(14, test::diffuseMaterial(Rgb(1.f)), light, {0, 0, 8}, {true, false, 0});
+  const ImageRgb image = render(baked, RendererKind::singlepass, LightMapFormat::float32, 21, 11);
+  const auto at = [&](int x, int y) { return image.pixels[static_cast<std::size_t>(y * 21 + x)]; };
+  EXPECT_GT(at(15, 5).x, at(5, 5).x + 0.1f);
+  EXPECT_GT(at(10, 1).y, at(10, 9).y + 0.1f);
+}
+
+TEST_F(Renderers, ImpossibleSizesAreAnErrorOfUsage) {
+  const BakedScene baked = plate(1, coat(1), test::constantRadiance(Rgb(1.f)), {1, 0, 1});
+  for (const auto& [w, h] : {std::pair{0, 5}, std::pair{5, -1}, std::pair{1 << 20, 5}}) {
+    try {
+      render(baked, RendererKind::singlepass, LightMapFormat::half, w, h);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+    }
+  }
+}
+
+TEST_F(Renderers, ASceneWithoutChartsIsABadInput) {
+  BakedScene baked = plate(1, coat(1), test::constantRadiance(Rgb(1.f)), {1, 0, 1});
+  baked.scene.chartOfTriangle.clear();
+  EXPECT_THROW(render(baked, RendererKind::singlepass, LightMapFormat::half, 8, 8), InputError);
+}
+
+}  // namespace
+}  // namespace lucarne
