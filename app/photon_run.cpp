@@ -1,5 +1,6 @@
 #include "app/photon_run.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -90,6 +91,7 @@ std::uint64_t runBatches(const Run& run, IndexRange range, const std::vector<con
                          const std::function<bool(const RunProgress&)>& progress) {
   std::vector<std::unique_ptr<Worker<shared>>> workers;
   for (const Tallies* t : tallies) workers.push_back(std::make_unique<Worker<shared>>(run, *t));
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(run.options.threads));
   tbb::task_arena arena(run.options.threads);
   BatchSize batch;
   std::uint64_t done = range.begin;

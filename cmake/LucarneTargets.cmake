@@ -17,9 +17,13 @@ if(LUCARNE_SANITIZE)
 endif()
 
 # lucarne_library(NAME): a static library of every .cpp below the current folder, target lucarne::NAME, headers
-# included as "NAME/file.h" and installed under include/lucarne/NAME.
+# included as "NAME/file.h" and installed under include/lucarne/NAME. EXCLUDE REGEX leaves sources out.
 function(lucarne_library name)
+  cmake_parse_arguments(arg "" "EXCLUDE" "" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  if(arg_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX "${arg_EXCLUDE}")
+  endif()
   add_library(lucarne_${name} STATIC ${sources})
   add_library(lucarne::${name} ALIAS lucarne_${name})
   set_target_properties(lucarne_${name} PROPERTIES EXPORT_NAME ${name})

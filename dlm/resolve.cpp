@@ -133,7 +133,7 @@ LightMaps resolve(const ResolveInput& in, const KernelOptions& options) {
   return maps;
 }
 
-double estimatedRelativeError(const LightMaps& maps, const ChartSet&, const TexelLayout& layout) {
+double estimatedRelativeError(const LightMaps& maps, const TexelLayout& layout) {
   double error = 0, flux = 0;
   for (const SideMaps& side : maps.sides) {
     if (!side.lit) continue;

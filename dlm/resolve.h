@@ -29,6 +29,6 @@ struct ResolveInput {
 LightMaps resolve(const ResolveInput& input, const KernelOptions& kernel);
 
 /// Flux-weighted estimated relative error of the irradiance: Σ area·σ / Σ area·E over all lit texels.
-double estimatedRelativeError(const LightMaps& maps, const ChartSet& charts, const TexelLayout& layout);
+double estimatedRelativeError(const LightMaps& maps, const TexelLayout& layout);
 
 }  // namespace lucarne

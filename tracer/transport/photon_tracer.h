@@ -97,7 +97,7 @@ class PhotonPath {
     const Bsdf bsdf = scene_.surfaces().bsdf(hit.triangle, hit.b);
     const Frame<float> frame(ns);
     const Vec3f wiLocal = frame.toLocal(wi);
-    const FixedRgb before(beta_), expected(beta_ * (Rgb(1.f) - albedo(bsdf, wiLocal)));
+    const FixedRgb before(beta_), expected = before - FixedRgb(sane(beta_ * albedo(bsdf, wiLocal)));
     const auto sampled = sample(bsdf, wiLocal, {u[0], u[1], u[2]});
     const Rgb onward = sampled ? sane(beta_ * sampled->weight) : Rgb{};
     book(ledger_.absorbed, before - FixedRgb(onward), expected);

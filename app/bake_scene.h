@@ -1,0 +1,29 @@
+// The bake in memory: a scene in, light maps out, no files. What programs that embed the libraries call.
+#pragma once
+
+#include <functional>
+
+#include "app/bake_plan.h"
+#include "app/photon_run.h"
+#include "dlm/atlas.h"
+#include "dlm/light_maps.h"
+
+namespace lucarne {
+
+struct Baked {
+  Ledger ledger;
+  double seconds = 0;      // of tracing
+  double emittedFlux = 0;  // lm, mean over channels: the scale of the ledger and the tallies
+  LightMaps maps;
+  AtlasUv uv;              // into maps' irradiance atlas
+  Hash128 contentHash;     // of the tallies
+};
+
+/// Traces options.photons photons and resolves them. `progress` as in runPhotons; stopping early gives a whole, noisier result.
+Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options,
+                const std::function<bool(const RunProgress&)>& progress);
+
+/// As typed, or all of the machine's.
+int threadCount(const BakeOptions& options);
+
+}  // namespace lucarne

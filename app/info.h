@@ -1,0 +1,17 @@
+// What a file is and what is in it, for people and as JSON.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace lucarne {
+
+/// A .dlm folder, a scene (.glb, .gltf) or an image (.exr, .hdr). Always has "kind" and "path". InputError for
+/// anything else.
+nlohmann::json describe(const std::filesystem::path& path);
+
+/// The same as indented lines "key: value".
+std::string toText(const nlohmann::json& description);
+
+}  // namespace lucarne

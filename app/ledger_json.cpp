@@ -1,0 +1,34 @@
+#include "app/ledger_json.h"
+
+#include <cmath>
+
+namespace lucarne {
+
+nlohmann::json ledgerToJson(const Ledger& ledger, double emittedFlux) {
+  const double scale = ledger.photons == 0 ? 0
+                                           : emittedFlux / static_cast<double>(ledger.photons) /
+                                                 static_cast<double>(kFixedPointOne);
+  const auto lumens = [&](const FluxSum& sum) {
+    nlohmann::json rgb = nlohmann::json::array();
+    for (const Int128 units : sum.units) rgb.push_back(static_cast<double>(units) * scale);
+    return rgb;
+  };
+  return {{"flux_lm",
+           {{"emitted", lumens(ledger.emitted)},
+            {"absorbed", lumens(ledger.absorbed)},
+            {"escaped", lumens(ledger.escaped)},
+            {"cut_off", lumens(ledger.cutOff)},
+            {"roulette", lumens(ledger.roulette)},
+            {"shading_normal", lumens(ledger.shadingNormal)}}},
+          {"ledger_balances", ledger.balance() == ledger.emitted},
+          {"expected_absorbed_lm", lumens(ledger.expectedAbsorbed)},
+          {"absorbed_standard_error_lm", std::sqrt(static_cast<double>(ledger.absorptionErrorSquares)) * scale},
+          {"incident_lm", lumens(ledger.incident)},
+          {"rare_events",
+           {{"cut_off_paths", ledger.cutOffPaths},
+            {"repeated_rays", ledger.repeatedRays},
+            {"clamped_shading_normals", ledger.clampedNormals},
+            {"stray_values", ledger.strayValues}}}};
+}
+
+}  // namespace lucarne

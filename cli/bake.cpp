@@ -1,0 +1,78 @@
+#include "app/bake.h"
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/units.h"
+#include "cli/commands.h"
+
+namespace lucarne {
+namespace {
+
+/// Numbers arrive as text, so that 20M and 1e9 work and nonsense is refused in our words.
+struct BakeTexts {
+  std::string scene, report, photons = "20M", texels = "1M", seed = "0";
+};
+
+void finish(BakeOptions& options, const BakeTexts& texts) {
+  if (!texts.scene.empty()) options.scene = texts.scene;
+  if (!texts.report.empty()) options.report = texts.report;
+  options.photons = parseCount("--photons", texts.photons);
+  options.texelBudget = parseCount("--texels", texts.texels);
+  options.seed = parseCount("--seed", texts.seed);
+}
+
+void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
+  cmd.add_option("--photons", texts.photons, "photons to trace, e.g. 20M or 1e9; four times as many halve the noise")->capture_default_str();
+  cmd.add_option("--directions", o.directions, "size of the direction set: more show sharper highlights, cost memory and frame time")->capture_default_str();
+  cmd.add_option("--density", o.texelsPerMetre, "texels per metre: finer shadows, more noise for the same photons")->capture_default_str();
+  cmd.add_option("--texels", texts.texels, "texel budget; a scene that needs more is baked at a lower density")->capture_default_str();
+  static const std::map<std::string, KernelShape> shapes{
+      {"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}};
+  cmd.add_option("--kernel", o.kernel.shape, "reconstruction kernel: pyramid, box or epanechnikov")
+      ->transform(CLI::CheckedTransformer(shapes).description(""))->type_name("NAME")->default_str("pyramid");
+  cmd.add_option("--kernel-width", o.kernel.width, "distance in texels at which the kernel ends: wider is smoother and blurrier")->capture_default_str();
+  cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();
+  static const std::map<std::string, LightPart> parts{
+      {"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}};
+  cmd.add_option("--light", o.light, "which light to store: all, direct or indirect")
+      ->transform(CLI::CheckedTransformer(parts).description(""))->type_name("NAME")->default_str("all");
+  cmd.add_flag("--keep-all-directions", o.keepAllDirections, "direction maps also for surfaces without a glossy lobe");
+}
+
+void addRunning(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
+  cmd.add_option("--threads", o.threads, "0: all; the result does not depend on it")->capture_default_str();
+  static const std::map<std::string, ChannelType> formats{{"half", ChannelType::half}, {"float", ChannelType::float32}};
+  cmd.add_option("--format", o.format.directional, "numbers of the directional maps on disk: half or float")
+      ->transform(CLI::CheckedTransformer(formats).description(""))->type_name("NAME")->default_str("half");
+  cmd.add_option("--report", texts.report, "write what happened to a JSON file: rates, energy ledger, errors, what was left out");
+  cmd.add_option("--isa", o.isa, "Embree's instruction set (avx512, avx2, sse4.2); bakes to be compared bit by bit need the same");
+  cmd.add_flag("--quiet", o.quiet, "print errors only");
+}
+
+}  // namespace
+
+void addBake(CLI::App& app, Action& action) {
+  CLI::App* cmd = app.add_subcommand("bake", "trace photons through a scene and write its light maps");
+  const auto options = std::make_shared<BakeOptions>();
+  const auto texts = std::make_shared<BakeTexts>();
+  cmd->add_option("SCENE", texts->scene, "a .glb or .gltf file in metres; none: the built-in room");
+  cmd->add_option("-o,--output", options->output, "the light maps, a folder NAME.dlm")->required();
+  addQuality(*cmd, *options, *texts);
+  addRunning(*cmd, *options, *texts);
+  cmd->callback([options, texts, &action] {
+    action = [options, texts] {
+      finish(*options, *texts);
+      setQuiet(options->quiet);
+      const nlohmann::json report = bake(*options);
+      logInfo("wrote " + options->output.string() + ": " + formatCount(report["photons"].get<std::uint64_t>()) + " photons in " +
+              formatDuration(report["seconds"].get<double>()) + ", estimated error " +
+              formatPercent(report["estimated_relative_error"].get<double>()));
+    };
+  });
+}
+
+}  // namespace lucarne

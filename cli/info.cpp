@@ -1,0 +1,27 @@
+#include "app/info.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "base/json.h"
+#include "cli/commands.h"
+
+namespace lucarne {
+
+void addInfo(CLI::App& app, Action& action) {
+  CLI::App* cmd = app.add_subcommand("info", "tell what is in a .dlm, a scene or an .exr/.hdr image");
+  const auto path = std::make_shared<std::string>();
+  const auto json = std::make_shared<bool>(false);
+  cmd->add_option("PATH", *path, "the file or folder")->required();
+  cmd->add_flag("--json", *json, "as JSON");
+  cmd->callback([=, &action] {
+    action = [=] {
+      const nlohmann::json d = describe(*path);
+      const std::string text = *json ? dumpJson(d) : toText(d);
+      std::fputs(text.c_str(), stdout);
+      if (!text.ends_with('\n')) std::fputc('\n', stdout);
+    };
+  });
+}
+
+}  // namespace lucarne
