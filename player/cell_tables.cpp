@@ -1,13 +1,16 @@
 #include "player/cell_tables.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace lucarne {
 namespace {
 
-/// Nodes along an edge: about 4° apart for few ψ, fewer for large sets, whose cells the horizon cuts in a thin band only.
-int nodesFor(int directionCount) { return directionCount <= 128 ? 33 : directionCount <= 1024 ? 25 : 17; }
+/// Nodes along an edge. About 2.5° apart constant light comes out within 2 % for the sharpest lobes and grazing views; at 5°
+/// it errs by up to 5 % there (|Ω| = 256). Larger sets must do with less, for the time and the memory.
+int nodesFor(int directionCount) { return directionCount <= 256 ? 65 : directionCount <= 1024 ? 33 : 17; }
 
 }  // namespace
 
@@ -39,18 +42,23 @@ CellTable::CellTable(const DirectionSet& set, int maxLayers)
       tiles_((set.count() + layers_ - 1) / layers_) {
   const auto width = static_cast<std::size_t>(nodes_ * tiles_), height = static_cast<std::size_t>(nodes_);
   texels_.resize(width * height * static_cast<std::size_t>(layers_));
-  for (int y = 0; y < nodes_; ++y) {
-    for (int x = 0; x < nodes_; ++x) {
-      const double step = 2.0 / (nodes_ - 1);
-      const Vec3d n = octahedralNormal({x * step - 1, y * step - 1});
-      for (int psi = 0; psi < set.count(); ++psi) {
-        const LobeCell cell = lobeCell(set, psi, n);
-        const auto row = static_cast<std::size_t>((psi % layers_) * nodes_ + y);
-        const auto column = static_cast<std::size_t>((psi / layers_) * nodes_ + x);
-        texels_[row * width + column] = {cell.direction.x, cell.direction.y, cell.direction.z, cell.cosIntegral};
-      }
-    }
+  tbb::parallel_for(0, nodes_, [&](int y) {
+    for (int x = 0; x < nodes_; ++x) fillNode(set, x, y);
+  });
+}
+
+void CellTable::fillNode(const DirectionSet& set, int x, int y) {
+  const double step = 2.0 / (nodes_ - 1);
+  const Vec3d n = octahedralNormal({x * step - 1, y * step - 1});
+  for (int psi = 0; psi < set.count(); ++psi) {
+    const LobeCell cell = lobeCell(set, psi, n);
+    texels_[texelIndex(psi, x, y)] = {cell.direction.x, cell.direction.y, cell.direction.z, cell.cosIntegral};
   }
+}
+
+std::size_t CellTable::texelIndex(int psi, int x, int y) const {
+  const int row = (psi % layers_) * nodes_ + y, column = (psi / layers_) * nodes_ + x;
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(nodes_ * tiles_) + static_cast<std::size_t>(column);
 }
 
 LobeCell CellTable::lookUp(int psi, Vec3f n) const {
@@ -61,8 +69,7 @@ LobeCell CellTable::lookUp(int psi, Vec3f n) const {
   for (int dy = 0; dy < 2; ++dy) {
     for (int dx = 0; dx < 2; ++dx) {
       const auto w = static_cast<float>((dx ? x - x0 : 1 - x + x0) * (dy ? y - y0 : 1 - y + y0));
-      const int row = (psi % layers_) * nodes_ + y0 + dy, column = (psi / layers_) * nodes_ + x0 + dx;
-      const LobeTexel& t = texels_[static_cast<std::size_t>(row * nodes_ * tiles_ + column)];
+      const LobeTexel& t = texels_[texelIndex(psi, x0 + dx, y0 + dy)];
       sum.direction += Vec3f{t.x, t.y, t.z} * w;
       sum.cosIntegral += t.c * w;
     }

@@ -34,6 +34,9 @@ class CellTable {
   LobeCell lookUp(int psi, Vec3f n) const;
 
  private:
+  void fillNode(const DirectionSet& set, int x, int y);
+  std::size_t texelIndex(int psi, int x, int y) const;
+
   int nodes_ = 3, layers_ = 1, tiles_ = 1;
   std::vector<LobeTexel> texels_;
 };

@@ -78,7 +78,7 @@ TEST_F(Renderers, CountersShowWhatSortingSaves) {
   EXPECT_LT(stats.counts.draws, stats.unsorted.draws);
   render(baked, RendererKind::singlepass, LightMapFormat::float32, 16, 16, &stats);
   EXPECT_EQ(stats.counts.directionSwitches, 0u);
-  EXPECT_EQ(stats.counts.draws, 1u + 6u);  // the pre-pass and one a material
+  EXPECT_EQ(stats.counts.draws, 1u + 6u + 1u);  // the pre-pass, one a material, and one material is on flat and curved charts
   EXPECT_GT(stats.textureBytes, stats.lightMapBytes);
 }
 
@@ -164,11 +164,19 @@ TEST_F(Renderers, ConstantLightGivesAConstantHighlightOnAFlatPlate) {
   }
 }
 
+/// True between the centres of a sphere patch's texels; outside them maps are clamped, in a bake too, and hold the light of another
+/// normal.
+bool amongTexelCentres(Vec3d n, int texels) {
+  const Vec3d a{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+  const double margin = 1 - 1.0 / texels, middle = a.x + a.y + a.z - maxComponent(a) - minComponent(a);
+  return middle < margin * maxComponent(a);
+}
+
 TEST_F(Renderers, ConstantLightGivesAConstantHighlightOnASphere) {
-  constexpr int kSize = 31;
+  constexpr int kSize = 31, kTexels = 32;
   for (const int directions : {14, 32, 64, 256}) {
     test::BakedSceneBuilder b(directions, test::constantRadiance(Rgb(2.f)));
-    b.addSphere({0, 0, 0}, 1, b.addMaterial(coat(1)), 24, 24);
+    b.addSphere({0, 0, 0}, 1, b.addMaterial(coat(1)), 24, kTexels);
     b.addCamera({3, 2, 4}, {0, 0, 0}, 0.4);
     BakedScene baked = b.build();
     const Camera& camera = baked.scene.cameras[0];
@@ -177,7 +185,8 @@ TEST_F(Renderers, ConstantLightGivesAConstantHighlightOnASphere) {
       const Vec3d d = rayThrough(camera, x, y, kSize);
       const double along = dot(camera.position, d), rest = along * along - dot(camera.position, camera.position) + radius * radius;
       if (rest <= 0) return 0.;
-      return -dot(normalize(camera.position - d * (along + std::sqrt(rest))), d);
+      const Vec3d n = normalize(camera.position - d * (along + std::sqrt(rest)));
+      return amongTexelCentres(n, kTexels) ? -dot(n, d) : 0.;
     };
     for (const float exponent : {1.f, 3.f, 10.f, 30.f, 100.f}) {
       baked.scene.materials[0] = coat(exponent);

@@ -45,7 +45,7 @@ TEST(TexelFormats, HalfRoundsToNearest) {
 }
 
 TEST(TexelFormats, ScaleIsAPowerOfTwoThatFitsHalf) {
-  for (const float v : {1e-38f, 1e-12f, 0.3f, 1.f, 32768.f, 65504.f, 1e9f, 3e38f}) {
+  for (const float v : {1e-33f, 1e-12f, 0.3f, 1.f, 32768.f, 65504.f, 1e9f, 3e38f}) {
     const float scale = halfScale(v);
     int exponent = 0;
     EXPECT_EQ(std::frexp(scale, &exponent), 0.5f);
