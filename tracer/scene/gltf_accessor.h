@@ -44,6 +44,8 @@ class Accessor {
 
   /// Component `c` of element `i` as a number: integers as they are, or in 0..1 / −1..1 where normalised.
   double value(std::uint64_t i, std::uint32_t c) const;
+  /// The same without normalisation.
+  double rawValue(std::uint64_t i, std::uint32_t c) const { return raw(element(i), c); }
   /// Element of an unsigned integer accessor.
   std::uint32_t integer(std::uint64_t i) const { return static_cast<std::uint32_t>(raw(element(i), 0)); }
   /// The bytes of element `i`, elementSize of them.
