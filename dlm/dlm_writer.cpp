@@ -1,5 +1,7 @@
 #include "dlm/dlm_writer.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/files.h"
 #include "dlm/dlm_writer_pages.h"
@@ -12,6 +14,8 @@ namespace {
 
 // Broken maps are found here, where the stack still says who made them, and not by the next reader.
 void checkMaps(const LightMaps& maps) {
+  LUCARNE_CHECK_EQ(std::all_of(maps.irradiance.begin(), maps.irradiance.end(), isFinite<float>), true);
+  LUCARNE_CHECK_EQ(std::all_of(maps.directional.begin(), maps.directional.end(), isFinite<float>), true);
   LUCARNE_CHECK_EQ(maps.irradiance.size(), maps.relativeError.size());
   LUCARNE_CHECK_EQ(maps.irradiance.size(), maps.photons.size());
   for (std::size_t i = 0; i < maps.sides.size(); ++i) {
@@ -72,7 +76,9 @@ void writeDlm(const std::filesystem::path& folder, const Scene& scene, const Atl
     nlohmann::json manifest = provenance;
     manifest.update(describeMaps(maps, scene.frame, pages));
     manifest["files"] = sealFiles(aside, files);
-    writeFileAtomically(aside / dlm_file::kManifest, manifest.dump() + "\n");
+    // Names of files in the provenance need not be UTF-8.
+    const std::string text = manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    writeFileAtomically(aside / dlm_file::kManifest, text + "\n");
   });
 }
 

@@ -96,6 +96,12 @@ TEST(DlmFile, ProvenanceIsKeptAndTheManifestsOwnKeysWin) {
   EXPECT_EQ(dlm.manifest["charts"]["count"], 3);
 }
 
+TEST(DlmFile, ProvenanceNeedNotBeUtf8) {
+  const TempFolder folder;
+  smallBakedScene().write(folder / "room.dlm", {}, {{"scene", "r\xe9sum\xe9.glb"}});
+  EXPECT_TRUE(readDlm(folder / "room.dlm").manifest["scene"].is_string());
+}
+
 TEST(DlmFile, AManifestReadServesAsProvenanceOfTheNext) {
   const TempFolder folder;
   const BakedScene scene = smallBakedScene();
@@ -243,6 +249,8 @@ TEST(DlmFile, BrokenMapsAreRefusedBeforeAnythingIsWritten) {
                  std::logic_error);
   };
   expectRefused([](LightMaps& m) { m.irradiance.pop_back(); });
+  expectRefused([](LightMaps& m) { m.irradiance[3].y = std::nanf(""); });
+  expectRefused([](LightMaps& m) { m.directional[3].y = HUGE_VALF; });
   expectRefused([](LightMaps& m) { m.directional.pop_back(); });
   expectRefused([](LightMaps& m) { m.sides[0].width = 5; });
   expectRefused([](LightMaps& m) { m.charts[0].frontSide = 1; });
