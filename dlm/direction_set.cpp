@@ -1,7 +1,5 @@
 #include "dlm/direction_set.h"
 
-#include <limits>
-
 #include "base/error.h"
 #include "dlm/direction_set_cells.h"
 

@@ -2,9 +2,6 @@
 
 #include <cstdio>
 
-#include "base/error.h"
-#include "dlm/pack.h"
-
 namespace lucarne {
 
 namespace {

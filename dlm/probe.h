@@ -1,7 +1,6 @@
 // What the light maps say at a point of the scene.
 #pragma once
 
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // The chart side that a point and a normal mean.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "dlm/light_maps.h"

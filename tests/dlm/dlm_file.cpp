@@ -1,5 +1,4 @@
 #include <cstring>
-#include <fstream>
 
 #include "base/files.h"
 #include "tests/base/expect_error.h"

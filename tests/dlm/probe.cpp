@@ -1,6 +1,8 @@
 #include "dlm/probe.h"
 
-#include <numbers>
+#include <gtest/gtest.h>
+
+#include <memory>
 
 #include "dlm/probe_closest.h"
 #include "tests/base/expect_error.h"
