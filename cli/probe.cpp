@@ -11,8 +11,8 @@ void addProbe(CLI::App& app, Action& action) {
   const auto path = std::make_shared<std::string>();
   const auto text = std::make_shared<bool>(false);
   cmd->add_option("DLM", *path, "the light maps")->required();
-  cmd->add_flag("--json", "answers are one JSON line each (this is the default)");
-  cmd->add_flag("--text", *text, "answers for people instead of JSON");
+  auto* json = cmd->add_flag_function("--json", [](std::int64_t) {}, "answers are one JSON line each: the default");
+  cmd->add_flag("--text", *text, "answers for people instead of JSON")->excludes(json);
   cmd->callback([=, &action] { action = [=] { probePoints(*path, std::cin, std::cout, *text); }; });
 }
 

@@ -1,0 +1,20 @@
+// Pictures of a .dlm without a window.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "player/render_options.h"
+
+namespace lucarne {
+
+struct RenderJob {
+  std::filesystem::path dlm, output;  // .exr: linear cd/m², no exposure; .png: auto exposure, tone map, sRGB
+  std::string camera;                 // name or index; empty: the first, or one that sees the scene
+  RenderOptions options;
+};
+
+/// Renders and writes the picture. UsageError for an unknown camera or ending.
+RenderStats render(const RenderJob& job);
+
+}  // namespace lucarne
