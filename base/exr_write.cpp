@@ -48,7 +48,7 @@ imf::PixelType exrType(ChannelType type) {
 }
 
 /// Windows start at the origin; the display window is the largest of all layers, because a file has only one.
-imf::Header layerHeader(const ExrLayer& layer, imath::Box2i displayWindow, imf::Compression compression) {
+imf::Header layerHeader(const ExrLayer& layer, const imath::Box2i& displayWindow, imf::Compression compression) {
   const imath::Box2i dataWindow(imath::V2i(0, 0), imath::V2i(layer.width - 1, layer.height - 1));
   imf::Header header(displayWindow, dataWindow, 1.0f, imath::V2f(0, 0), 1.0f, imf::INCREASING_Y, compression);
   if (!layer.name.empty()) {
@@ -69,6 +69,7 @@ std::vector<imf::Header> layerHeaders(const std::vector<ExrLayer>& layers, ExrCo
     displayWindow.extendBy(imath::V2i(layer.width - 1, layer.height - 1));
   }
   std::vector<imf::Header> headers;
+  headers.reserve(layers.size());
   for (const ExrLayer& layer : layers) {
     headers.push_back(layerHeader(layer, displayWindow, exrCompression(compression)));
   }
