@@ -72,7 +72,7 @@ class DepositSink {
       const float m2 = std::min(sum * sum, kLargestSquare);
       std::int64_t* p = statistics_ + path_[i].texel * kStatisticsChannels;
       add(p, 1);
-      add(p + 1, roundUnits(m2, path_[i].bits));
+      add(p + 1, roundUnits(m2, path_[i].word));
     }
     path_.clear();
   }
@@ -95,12 +95,14 @@ class DepositSink {
   struct PathHit {
     std::uint64_t texel;
     float luminance;
-    std::uint32_t bits;
+    std::uint32_t word;  // for rounding
   };
 
-  /// v in fixed point, rounded up with the probability of the fraction, so that small values are kept on average.
-  static std::int64_t roundUnits(float v, std::uint32_t bits) {
-    return static_cast<std::int64_t>(static_cast<double>(v) * static_cast<double>(kFixedPointOne) + bits * 0x1p-32);
+  /// v in fixed point, rounded up with the probability of the fraction (to 1/256), so that small values are kept on
+  /// average: the mean is off by at most 2^-9 units.
+  static std::int64_t roundUnits(float v, std::uint32_t word) {
+    return static_cast<std::int64_t>(static_cast<double>(v) * static_cast<double>(kFixedPointOne) +
+                                     static_cast<double>(lowBitsToUnit(word)));
   }
   static void add(std::int64_t* p, std::int64_t v) {
     if constexpr (shared)
@@ -121,7 +123,6 @@ class DepositSink {
   }
 
   void splat(std::uint64_t entry, std::uint64_t texel, const PhotonHit& h) {
-    const auto bits = h.sampler.words(h.event, Stream::deposit);
     const Rgb value = received(h);
     Pending& slot = ring_[head_];
     head_ = (head_ + 1) % ring_.size();
@@ -130,10 +131,10 @@ class DepositSink {
     __builtin_prefetch(slot.at, 1);
     __builtin_prefetch(slot.at + 2, 1);
     __builtin_prefetch(statistics_ + texel * kStatisticsChannels, 1);
-    slot.units = {roundUnits(value.x, bits[0]), roundUnits(value.y, bits[1]), roundUnits(value.z, bits[2])};
+    slot.units = {roundUnits(value.x, h.words[0]), roundUnits(value.y, h.words[1]), roundUnits(value.z, h.words[2])};
     for (std::size_t c = 0; c < 3; ++c) sums_.incident.units[c] += slot.units[c];
     ++sums_.storedHits;
-    path_.push_back({texel, luminance(value), bits[3]});
+    path_.push_back({texel, luminance(value), h.words[3]});
   }
   static void apply(const Pending& p) {
     if (p.at == nullptr) return;

@@ -1,5 +1,5 @@
-// What a deposit costs: rays per second of CPU time of (1) bare rtcIntersect1 on recorded bounce rays, (2) the whole path logic without
-// storing anything, (3) the same with deposits in light maps. Same scene, same photons, same Embree flags.
+// What a deposit costs: rays per second of CPU time of (1) bare rtcIntersect1 on recorded bounce rays, (2) a lean
+// diffuse path around rtcIntersect1, (3) the whole path logic without storing anything, (4) the same with deposits in light maps. Same scene, same photons, same Embree flags.
 //
 //   build/release/tests/bench/lucarne_bench --benchmark_filter=Rays --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true
 //
@@ -13,6 +13,7 @@
 
 #include "app/bake_scene.h"
 #include "app/builtin_scene.h"
+#include "tracer/optics/warp.h"
 #include "tracer/scene/gltf_reader.h"
 
 namespace lucarne {
@@ -69,6 +70,33 @@ const Fixture& fixture() {
 
 constexpr std::uint64_t kPhotons = 100'000;
 
+RTCRayHit rayHit(Vec3f o, Vec3f d) {
+  return {{o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, 1e30f, ~0u, 0, 0}, {0, 0, 0, 0, 0, 0, RTC_INVALID_GEOMETRY_ID, {RTC_INVALID_GEOMETRY_ID}}};
+}
+
+/// The leanest photon that still bounces: real emission, then rtcIntersect1, Philox, a cosine direction about the normal, one albedo,
+/// roulette. No textures, no BSDF, no ledger, no recomputed hit.
+std::uint64_t leanPhoton(const Fixture& f, std::uint64_t i) {
+  const PhotonSampler sampler(0, i);
+  const auto pick = sampler.words(0, Stream::emitter);
+  const auto u = sampler.floats(0, Stream::emission);
+  const EmittedPhoton p =
+      f.photonScene->emitters().sample({toUnitDouble(pick[0], pick[1]), toUnitFloat(pick[2]), {u[0], u[1]}, {u[2], u[3]}});
+  Vec3f o = RayCaster::leave(p.position, p.normal), d = p.direction;
+  for (std::uint32_t event = 1;; ++event) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit ray = rayHit(o, d);
+    rtcIntersect1(f.photonScene->rayCaster().embreeScene(), &context, &ray);
+    const auto v = sampler.floats(event, Stream::scatter);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID || v[3] > 0.68f) return event;
+    Vec3f n = normalize(Vec3f{ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
+    if (dot(n, d) > 0) n = -n;
+    o = o + d * ray.ray.tfar + n * 1e-6f;
+    d = Frame<float>(n).toWorld(sampleCosineHemisphere({v[0], v[1]}));
+  }
+}
+
 void BareIntersectRays(benchmark::State& state) {
   const Fixture& f = fixture();
   std::uint64_t hits = 0;
@@ -76,8 +104,7 @@ void BareIntersectRays(benchmark::State& state) {
     for (const Ray& r : f.rays) {
       RTCIntersectContext context;
       rtcInitIntersectContext(&context);
-      RTCRayHit ray{{r.origin.x, r.origin.y, r.origin.z, 0, r.direction.x, r.direction.y, r.direction.z, 0, 1e30f, ~0u, 0, 0},
-                    {0, 0, 0, 0, 0, 0, RTC_INVALID_GEOMETRY_ID, {RTC_INVALID_GEOMETRY_ID}}};
+      RTCRayHit ray = rayHit(r.origin, r.direction);
       rtcIntersect1(f.photonScene->rayCaster().embreeScene(), &context, &ray);
       hits += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     }
@@ -86,6 +113,15 @@ void BareIntersectRays(benchmark::State& state) {
   state.counters["rays/s"] = benchmark::Counter(static_cast<double>(f.rays.size() * state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(BareIntersectRays)->Unit(benchmark::kMillisecond);
+
+void LeanPathRays(benchmark::State& state) {
+  const Fixture& f = fixture();
+  std::uint64_t rays = 0;
+  for (auto _ : state)
+    for (std::uint64_t i = 0; i < kPhotons; ++i) rays += leanPhoton(f, i);
+  state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
+}
+BENCHMARK(LeanPathRays)->Unit(benchmark::kMillisecond);
 
 void PathLogicRays(benchmark::State& state) {
   const Fixture& f = fixture();

@@ -90,7 +90,7 @@ void EmitterTable::addTriangle(std::uint32_t triangle) {
   const double s = scene_->frame.scale;
   const double area = 0.5 * length(scene_->scaledNormal(triangle)) * s * s;
   if (!(area > 0)) return;
-  const double sides = surfaces_->doubleSided(triangle) ? 2 : 1;
+  const double sides = surfaces_->doubleSided(scene_->triangles[triangle].material) ? 2 : 1;
   const auto radiance = [&](Vec2f b) { return static_cast<double>(mean(surfaces_->emission(triangle, b))); };
   const int n = subdivisions(triangle);
   std::vector<Emitter> pieces;
@@ -156,7 +156,7 @@ EmittedPhoton EmitterTable::sample(const EmissionSample& u) const {
 /// beta = Le·cos / (pdf) / total = Le · π · area · sides / flux.
 EmittedPhoton EmitterTable::emitFromTriangle(const Emitter& e, const EmissionSample& u) const {
   const Vec2f b = at(e.bary, sampleTriangle(u.position));
-  const bool twoSided = surfaces_->doubleSided(e.triangle);
+  const bool twoSided = surfaces_->doubleSided(scene_->triangles[e.triangle].material);
   const Vec3d scaled = scene_->scaledNormal(e.triangle);
   Vec3f n(scaled / length(scaled));
   if (twoSided && u.side < 0.5f) n = -n;

@@ -40,10 +40,7 @@ Vec2f SurfaceTable::uv(const TextureUse& use, std::uint32_t triangle, Vec2f b) c
   return set[t.v[0]] * (1 - b.x - b.y) + set[t.v[1]] * b.x + set[t.v[2]] * b.y;
 }
 
-Bsdf SurfaceTable::bsdf(std::uint32_t triangle, Vec2f b) const {
-  const std::uint32_t material = scene_->triangles[triangle].material;
-  const Entry& entry = entries_[material];
-  if (!entry.textured) return entry.constant;
+Bsdf SurfaceTable::textured(std::uint32_t material, std::uint32_t triangle, Vec2f b) const {
   const Material& m = scene_->materials[material];
   const Rgb base = m.baseColor * lookUp(*scene_, m.baseColorTexture, uv(m.baseColorTexture, triangle, b), Encoding::srgb);
   const Rgb mr = lookUp(*scene_, m.metallicRoughnessTexture, uv(m.metallicRoughnessTexture, triangle, b), Encoding::linear);

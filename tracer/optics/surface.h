@@ -16,9 +16,12 @@ class SurfaceTable {
  public:
   explicit SurfaceTable(const Scene& scene);
 
-  /// BSDF at barycentrics (b1, b2) of a triangle.
-  Bsdf bsdf(std::uint32_t triangle, Vec2f b) const;
-  bool doubleSided(std::uint32_t triangle) const { return entries_[scene_->triangles[triangle].material].doubleSided; }
+  /// BSDF of a material at barycentrics (b1, b2) of a triangle.
+  Bsdf bsdf(std::uint32_t material, std::uint32_t triangle, Vec2f b) const {
+    const Entry& entry = entries_[material];
+    return entry.textured ? textured(material, triangle, b) : entry.constant;
+  }
+  bool doubleSided(std::uint32_t material) const { return entries_[material].doubleSided; }
   /// Emitted radiance in cd/m² at barycentrics of a triangle, on each side that emits.
   Rgb emission(std::uint32_t triangle, Vec2f b) const;
 
@@ -28,6 +31,7 @@ class SurfaceTable {
     bool textured = false;
     bool doubleSided = false;
   };
+  Bsdf textured(std::uint32_t material, std::uint32_t triangle, Vec2f b) const;
   Vec2f uv(const TextureUse& use, std::uint32_t triangle, Vec2f b) const;
 
   const Scene* scene_;

@@ -9,6 +9,7 @@ namespace {
 
 /// Index of texel i on an axis of n texels.
 int wrapIndex(int i, int n, Wrap wrap) {
+  if (i >= 0 && i < n) return i;
   switch (wrap) {
     case Wrap::clampToEdge:
       return std::clamp(i, 0, n - 1);
@@ -22,11 +23,19 @@ int wrapIndex(int i, int n, Wrap wrap) {
   return ((i % n) + n) % n;
 }
 
+/// Largest integer ≤ x, for |x| far below 2^31 (std::floor is a library call on the oldest processors we build for).
+int floorToInt(float x) {
+  const int i = static_cast<int>(x);
+  return i - (static_cast<float>(i) > x);
+}
+
 /// Continuous coordinate in texels, brought near the image first so that huge coordinates cannot overflow an int.
 float toTexels(float u, int n, Wrap wrap) {
   if (!std::isfinite(u)) return 0;
-  if (wrap == Wrap::clampToEdge) u = std::clamp(u, -1.f, 2.f);
-  else u -= 2.f * std::floor(u * 0.5f);
+  if (wrap == Wrap::clampToEdge)
+    u = std::clamp(u, -1.f, 2.f);
+  else if (u < 0 || u >= 2)
+    u -= 2.f * std::floor(u * 0.5f);
   return u * static_cast<float>(n);
 }
 
@@ -47,7 +56,7 @@ Rgb lookUp(const Scene& scene, const TextureUse& use, Vec2f uv, Encoding encodin
   const Vec2f st = Vec2f{dot(use.rowU, uv), dot(use.rowV, uv)} + use.offset;
   const float shift = texture.nearest ? 0.f : 0.5f;
   const float x = toTexels(st.x, image.width, texture.wrapS) - shift, y = toTexels(st.y, image.height, texture.wrapT) - shift;
-  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  const int x0 = floorToInt(x), y0 = floorToInt(y);
   const int ix = wrapIndex(x0, image.width, texture.wrapS), iy = wrapIndex(y0, image.height, texture.wrapT);
   if (texture.nearest) return texel(image, ix, iy, encoding);
   const int jx = wrapIndex(x0 + 1, image.width, texture.wrapS), jy = wrapIndex(y0 + 1, image.height, texture.wrapT);

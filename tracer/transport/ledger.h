@@ -37,6 +37,10 @@ struct FixedRgb {
   static std::int64_t toUnits(float v) {
     return static_cast<std::int64_t>(static_cast<double>(v) * static_cast<double>(kFixedPointOne) + 0.5);
   }
+  FixedRgb& operator+=(const FixedRgb& b) {
+    for (std::size_t c = 0; c < 3; ++c) units[c] += b.units[c];
+    return *this;
+  }
   friend FixedRgb operator-(FixedRgb a, const FixedRgb& b) {
     for (std::size_t c = 0; c < 3; ++c) a.units[c] -= b.units[c];
     return a;

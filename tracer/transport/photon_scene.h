@@ -24,7 +24,7 @@ class PhotonScene {
   /// Interpolated shading normal on the side of `n` (the geometric normal of the side hit), or `n` itself on flat
   /// triangles and where the interpolated one turns its back on `wi`.
   Vec3f shadingNormal(const Hit& hit, Vec3f n, Vec3f wi) const {
-    if (scene_.smooth.empty() || !scene_.smooth[hit.triangle]) return n;
+    if (!hit.smooth) return n;
     const Triangle& t = scene_.triangles[hit.triangle];
     const Vec3f ns = normalize(scene_.normals[t.v[0]] * (1 - hit.b.x - hit.b.y) + scene_.normals[t.v[1]] * hit.b.x +
                                scene_.normals[t.v[2]] * hit.b.y);

@@ -78,7 +78,7 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
     for (const std::uint32_t v : scene.triangles[i].v) *indices++ = v;
     const Vec3d scaled = scene.scaledNormal(i);
     triangles_.push_back({scene.corner(i, 0), scene.corner(i, 1) - scene.corner(i, 0), scene.corner(i, 2) - scene.corner(i, 0),
-                          Vec3f(normalize(scaled))});
+                          Vec3f(normalize(scaled)), scene.triangles[i].material, !scene.smooth.empty() && scene.smooth[i] != 0});
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(embreeScene_, geometry);
@@ -131,7 +131,7 @@ std::optional<Hit> RayCaster::intersect(std::uint32_t triangle, Vec3f origin, Ve
     b2 = std::clamp(dot(d, cross(s, e1)) * inv, 0.0, 1.0 - b1);
   }
   return Hit{triangle, {static_cast<float>(b1), static_cast<float>(b2)}, Vec3d(t.p0) + e1 * b1 + e2 * b2, t.n,
-             dot(t.n, direction) > 0};
+             dot(t.n, direction) > 0, t.smooth, t.material};
 }
 
 }  // namespace lucarne

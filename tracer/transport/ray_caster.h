@@ -22,6 +22,8 @@ struct Hit {
   Vec3d position; // local, on the triangle's plane
   Vec3f n;        // unit geometric normal of the front
   bool back;      // the ray came from behind
+  bool smooth;    // of the triangle: normals are interpolated
+  std::uint32_t material;
 };
 
 struct RayCasterOptions {
@@ -51,6 +53,8 @@ class RayCaster {
  private:
   struct alignas(64) TriangleData {  // one cache line a triangle
     Vec3f p0, e1, e2, n;
+    std::uint32_t material;
+    bool smooth;
   };
   std::optional<Hit> intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const;
   void build(const Scene& scene, const RayCasterOptions& options);
