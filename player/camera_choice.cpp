@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "base/error.h"
@@ -25,7 +26,8 @@ std::string listOf(const Scene& scene) {
 }
 
 bool isNumber(const std::string& text) {
-  return !text.empty() && text.size() < 6 && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return !text.empty() && text.size() < 6 &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 /// Rays of one scene, and how large it is.
@@ -40,27 +42,35 @@ class Scout {
   const Box& box() const { return box_; }
   double size() const { return std::max(length(box_.extent()), 1e-9); }
 
-  /// What a ray is worth: up to 1 for a front some way off, 0 for nothing, −1 for a back that should not be seen.
-  double worth(Vec3d eye, Vec3d direction) const {
+  struct Sight {
+    double worth = 0;  // up to 1 for a front some way off, 0 for nothing, −1 for a back that should not be seen
+    std::uint32_t material = kNone;
+  };
+  Sight sight(Vec3d eye, Vec3d direction) const {
     std::uint64_t repeats = 0;
     const std::optional<Hit> hit = caster_.nearest(Vec3f(eye), Vec3f(direction), kNone, repeats);
-    if (!hit) return 0;
-    if (hit->back && !scene_.materials[scene_.triangles[hit->triangle].material].doubleSided) return -1;
-    return std::min(length(hit->position - eye) / (0.3 * size()), 1.0);
+    if (!hit) return {};
+    const std::uint32_t material = scene_.triangles[hit->triangle].material;
+    if (hit->back && !scene_.materials[material].doubleSided) return {-1, material};
+    return {std::min(length(hit->position - eye) / (0.5 * size()), 1.0), material};
   }
 
-  /// Mean worth over the picture of a camera, 4:3.
+  /// Mean worth over the picture of a camera, 4:3, and up to as much again for many different materials in it.
   double score(const Camera& camera) const {
     constexpr int kColumns = 12, kRows = 9;
     const double y = std::tan(camera.yfov / 2), x = y * kColumns / kRows;
     double sum = 0;
+    std::set<std::uint32_t> materials;
     for (int row = 0; row < kRows; ++row) {
       for (int column = 0; column < kColumns; ++column) {
         const double u = (2 * (column + 0.5) / kColumns - 1) * x, v = (2 * (row + 0.5) / kRows - 1) * y;
-        sum += worth(camera.position, normalize(camera.right * u + camera.up * v - camera.back));
+        const Sight s = sight(camera.position, normalize(camera.right * u + camera.up * v - camera.back));
+        sum += s.worth;
+        if (s.worth > 0) materials.insert(s.material);
       }
     }
-    return sum / (kColumns * kRows);
+    const auto known = static_cast<double>(std::min<std::size_t>(scene_.materials.size(), 16));
+    return sum / (kColumns * kRows) + static_cast<double>(materials.size()) / std::max(known, 1.);
   }
 
   /// Share of all directions in which a front is met.
@@ -69,7 +79,7 @@ class Scout {
     int fronts = 0;
     for (int i = 0; i < kRays; ++i) {
       const double z = 1 - 2 * (i + 0.5) / kRays, s = std::sqrt(1 - z * z), phi = 2.399963229728653 * i;
-      fronts += worth(eye, {s * std::cos(phi), z, s * std::sin(phi)}) > 0 ? 1 : 0;
+      fronts += sight(eye, {s * std::cos(phi), z, s * std::sin(phi)}).worth > 0 ? 1 : 0;
     }
     return static_cast<double>(fronts) / kRays;
   }
@@ -105,7 +115,7 @@ Best bestInside(const Scout& scout, const std::vector<Vec3d>& places) {
   for (const Vec3d& eye : places) {
     for (int i = 0; i < 16; ++i) {
       const double yaw = kPi * i / 8;
-      best.consider(scout, lookAt(eye, eye + Vec3d{std::cos(yaw), -0.12, std::sin(yaw)}, kInsideFov));
+      best.consider(scout, lookAt(eye, eye + Vec3d{std::cos(yaw), -0.2, std::sin(yaw)}, kInsideFov));
     }
   }
   return best;
@@ -149,7 +159,7 @@ Camera automaticCamera(const Scene& scene) {
   }
   if (!enclosed.empty()) return bestInside(scout, enclosed).camera;
   const Best inside = bestInside(scout, places), outside = bestOutside(scout);
-  return inside.score > 0.5 && inside.score > outside.score ? inside.camera : outside.camera;
+  return inside.score > outside.score ? inside.camera : outside.camera;
 }
 
 Camera chooseCamera(const Scene& scene, const std::string& nameOrIndex) {

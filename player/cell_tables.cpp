@@ -8,8 +8,8 @@
 namespace lucarne {
 namespace {
 
-/// Nodes along an edge. About 2.5° apart constant light comes out within 2 % for the sharpest lobes and grazing views; at 5°
-/// it errs by up to 5 % there (|Ω| = 256). Larger sets must do with less, for the time and the memory.
+/// Nodes along an edge. About 2.5° apart constant light comes out within 2 % for the sharpest lobes and grazing views;
+/// at 5° it errs by up to 5 % there (|Ω| = 256). Larger sets must do with less, for the time and the memory.
 int nodesFor(int directionCount) { return directionCount <= 256 ? 65 : directionCount <= 1024 ? 33 : 17; }
 
 }  // namespace

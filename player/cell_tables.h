@@ -17,9 +17,9 @@ struct LobeTexel {
   float x, y, z, c;
 };
 
-/// lobeCell() over an octahedral grid of normals, one square a ψ; nodes at texel centres, first and last on the edges of the octahedral
-/// square, an odd count so that the six axes are nodes. With more ψ than layers the squares go on to the right:
-/// ψ lies in layer ψ mod layers, tile ψ / layers.
+/// lobeCell() over an octahedral grid of normals, one square a ψ; nodes at texel centres, first and last on the edges
+/// of the octahedral square, an odd count so that the six axes are nodes. With more ψ than layers the squares go on to
+/// the right: ψ lies in layer ψ mod layers, tile ψ / layers.
 class CellTable {
  public:
   CellTable(const DirectionSet& set, int maxLayers);

@@ -26,8 +26,8 @@ DisplayPass::DisplayPass()
     : program_(displayProgram()), nothing_(emptyVertexArray()), coarse_(kCoarseWidth, kCoarseHeight, true) {}
 
 float DisplayPass::meter(const FrameTarget& frame) const {
-  glBlitNamedFramebuffer(frame.shading.get(), coarse_.shading.get(), 0, 0, frame.width, frame.height, 0, 0, kCoarseWidth,
-                         kCoarseHeight, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glBlitNamedFramebuffer(frame.shading.get(), coarse_.shading.get(), 0, 0, frame.width, frame.height, 0, 0,
+                         kCoarseWidth, kCoarseHeight, GL_COLOR_BUFFER_BIT, GL_LINEAR);
   return autoExposure(readBack(coarse_));
 }
 

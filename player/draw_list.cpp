@@ -39,7 +39,7 @@ GpuVertex corner(const Scene& scene, const LightMaps& maps, std::uint32_t triang
   const Vec3f n = smooth ? scene.normals[i] : Vec3f(normalize(scene.scaledNormal(triangle)));
   const Vec2f uv0 = scene.uv0.empty() ? Vec2f{} : scene.uv0[i], uv1 = scene.uv1[i];
   const Vec2f c = chartUv(maps, chart, uv1);
-  return {{p.x, p.y, p.z}, {n.x, n.y, n.z}, {uv0.x, uv0.y},          {uv1.x, uv1.y},
+  return {{p.x, p.y, p.z}, {n.x, n.y, n.z},           {uv0.x, uv0.y},          {uv1.x, uv1.y},
           {c.x, c.y},      recordOf(chart.frontSide), recordOf(chart.backSide)};
 }
 
@@ -90,7 +90,8 @@ DrawList buildDrawList(const Scene& scene, const LightMaps& maps) {
   for (const std::uint32_t triangle : order) {
     const auto [curved, textured, material, chart] = keyOf(triangle);
     const auto vertex = static_cast<std::uint32_t>(list.vertices.size());
-    if (list.batches.empty() || std::tie(list.batches.back().curved, list.batches.back().material) != std::tie(curved, material)) {
+    if (list.batches.empty() ||
+        std::tie(list.batches.back().curved, list.batches.back().material) != std::tie(curved, material)) {
       list.batches.push_back({curved, textured, material, vertex, 0, static_cast<std::uint32_t>(list.runs.size()), 0});
     }
     Batch& batch = list.batches.back();

@@ -18,7 +18,8 @@ void set(float (&to)[4], Vec3d v, double w = 0) {
 }
 
 ProgramConstants constantsOf(const GpuMaps& maps, float outputScale) {
-  return {maps.cellSharpness, maps.mapUnit, outputScale, maps.layersPerStrip, maps.cellTableNodes, maps.cellTableLayers};
+  return {maps.cellSharpness,  maps.mapUnit,        outputScale,
+          maps.layersPerStrip, maps.cellTableNodes, maps.cellTableLayers};
 }
 
 /// State that no pass changes back.
@@ -38,7 +39,8 @@ FrameRenderer::FrameRenderer(const Scene& scene, const LightMaps& maps, LightMap
     : maps_(uploadMaps(maps, format)),
       scene_(scene, maps),
       programs_(constantsOf(maps_, outputScale)),
-      camera_(makeBuffer(std::as_bytes(std::span<const CameraBlock, 1>(std::array<CameraBlock, 1>{})), GL_DYNAMIC_STORAGE_BIT)),
+      camera_(makeBuffer(std::as_bytes(std::span<const CameraBlock, 1>(std::array<CameraBlock, 1>{})),
+                         GL_DYNAMIC_STORAGE_BIT)),
       singlepass_(makeSinglepass(scene_.list)),
       multipass_(makeMultipass(scene_.list, maps)) {
   stats_.textureBytes = maps_.textureBytes + scene_.textures.bytes();
@@ -77,7 +79,8 @@ void FrameRenderer::bindCommon(const FrameTarget& target) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, camera_.get());
   const GLuint buffers[] = {maps_.sides.get(), scene_.materials.get(), maps_.cells.get(), maps_.memberBits.get()};
   for (GLuint i = 0; i < 4; ++i) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
-  const GLuint textures[] = {maps_.directional.get(), maps_.irradiance.get(), maps_.cellTable.get(), scene_.specularTable.get()};
+  const GLuint textures[] = {maps_.directional.get(), maps_.irradiance.get(), maps_.cellTable.get(),
+                             scene_.specularTable.get()};
   for (GLuint i = 0; i < 4; ++i) glBindTextureUnit(i, textures[i]);
   glBindTextureUnit(8, target.owner.get());
 }

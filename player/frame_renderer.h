@@ -1,5 +1,5 @@
-// Draws frames of one scene with its light maps; needs a current OpenGL 4.5 context for its whole life. The same code serves the
-// window and the offscreen pictures.
+// Draws frames of one scene with its light maps; needs a current OpenGL 4.5 context for its whole life. The same code
+// serves the window and the offscreen pictures.
 #pragma once
 
 #include <memory>

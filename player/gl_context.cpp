@@ -18,10 +18,9 @@ struct Context {
   explicit operator bool() const { return context != EGL_NO_CONTEXT; }
 };
 
-constexpr std::array<EGLint, 7> kCore45 = {EGL_CONTEXT_MAJOR_VERSION,       4,
-                                           EGL_CONTEXT_MINOR_VERSION,       5,
-                                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                           EGL_NONE};
+constexpr std::array<EGLint, 7> kCore45 = {
+    EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
 
 bool hasWord(const char* words, const char* word) { return words != nullptr && std::strstr(words, word) != nullptr; }
 
@@ -45,7 +44,8 @@ Context contextOn(EGLDisplay display) {
 
 Context contextOnDevices(const char* clientExtensions) {
   if (!hasWord(clientExtensions, "EGL_EXT_platform_device")) return {};
-  if (!hasWord(clientExtensions, "EGL_EXT_device_enumeration") && !hasWord(clientExtensions, "EGL_EXT_device_base")) return {};
+  if (!hasWord(clientExtensions, "EGL_EXT_device_enumeration") && !hasWord(clientExtensions, "EGL_EXT_device_base"))
+    return {};
   std::array<EGLDeviceEXT, 32> devices{};
   EGLint count = 0;
   if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) return {};
@@ -53,7 +53,8 @@ Context contextOnDevices(const char* clientExtensions) {
     for (EGLint i = 0; i < count; ++i) {
       const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
       if (hasWord(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software") != software) continue;
-      if (const Context made = contextOn(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr))) return made;
+      if (const Context made = contextOn(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr)))
+        return made;
     }
   }
   return {};
@@ -78,7 +79,8 @@ void GLAPIENTRY onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei 
 HeadlessGl::HeadlessGl() : messages_(std::make_unique<GlMessages>()) {
   const Context made = anyContext();
   if (!made) {
-    throw Error(ExitCode::failed, "no OpenGL 4.5 without a display here; install a driver for EGL (Debian: libgl1-mesa-dri)");
+    throw Error(ExitCode::failed,
+                "no OpenGL 4.5 without a display here; install a driver for EGL (Debian: libgl1-mesa-dri)");
   }
   display_ = made.display;
   context_ = made.context;

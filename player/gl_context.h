@@ -1,8 +1,8 @@
 // An OpenGL 4.5 core context without a window, and the driver's own messages.
 //
-// EGL's device platform is asked first, hardware before software, then Mesa's surfaceless platform; GLFW needs a display
-// even for a hidden window. The context is current on the thread that made it until it is destroyed; it has no default
-// framebuffer.
+// EGL's device platform is asked first, hardware before software, then Mesa's surfaceless platform; GLFW needs a
+// display even for a hidden window. The context is current on the thread that made it until it is destroyed; it has no
+// default framebuffer.
 #pragma once
 
 #include <cstdint>

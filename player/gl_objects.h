@@ -1,4 +1,5 @@
-// OpenGL names with owners: each type deletes its object in its destructor; all need a current context for their whole life.
+// OpenGL names with owners: each type deletes its object in its destructor; all need a current context for their whole
+// life.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -57,8 +58,8 @@ using GlVertexArray = GlName<DeleteVertexArray>;
 using GlQuery = GlName<DeleteQuery>;
 using GlProgram = GlName<DeleteProgram>;
 
-/// Immutable buffer with these contents (at least 16 bytes, so that an empty list can be bound). Error(outOfResource) when the
-/// driver has no memory for it.
+/// Immutable buffer with these contents (at least 16 bytes, so that an empty list can be bound). Error(outOfResource)
+/// when the driver has no memory for it.
 GlBuffer makeBuffer(std::span<const std::byte> bytes, GLbitfield flags = 0);
 template <class T>
 GlBuffer makeBuffer(std::span<const T> values) {

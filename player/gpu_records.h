@@ -1,4 +1,5 @@
-// Records that shaders read, in the layout of std430; twins of the structs in shaders/surface.glsl and direction_pass.glsl.
+// Records that shaders read, in the layout of std430; twins of the structs in shaders/surface.glsl and
+// direction_pass.glsl.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +43,7 @@ struct GpuVertex {
   float position[3];
   float normal[3];  // shading normal of the front
   float uv0[2], uv1[2];
-  float chartUv[2];           // 0..1 over the chart's rectangle
+  float chartUv[2];                   // 0..1 over the chart's rectangle
   std::uint32_t frontSide, backSide;  // records
 };
 static_assert(sizeof(GpuVertex) == 56);

@@ -46,8 +46,8 @@ std::vector<std::size_t> packingOrder(const std::vector<LayeredRect>& rects) {
   return order;
 }
 
-std::optional<LayeredPacking> packInto(const std::vector<LayeredRect>& rects, const std::vector<std::size_t>& order, int width,
-                                       int height, int maxLayers) {
+std::optional<LayeredPacking> packInto(const std::vector<LayeredRect>& rects, const std::vector<std::size_t>& order,
+                                       int width, int height, int maxLayers) {
   LayeredPacking packing{width, height, 0, std::vector<LayeredPlace>(rects.size())};
   std::optional<Page> page;
   int first = 0;
@@ -93,14 +93,16 @@ std::optional<LayeredPacking> smallestPacking(const std::vector<LayeredRect>& re
 LayeredPacking packLayered(const std::vector<LayeredRect>& rects, const TextureLimits& limits) {
   LayeredRect largest;
   for (const LayeredRect& r : rects) {
-    largest = {std::max(largest.width, r.width), std::max(largest.height, r.height), std::max(largest.layers, r.layers)};
+    largest = {std::max(largest.width, r.width), std::max(largest.height, r.height),
+               std::max(largest.layers, r.layers)};
   }
   std::optional<LayeredPacking> best;
   if (largest.width <= limits.size && largest.height <= limits.size && largest.layers <= limits.layers) {
     best = smallestPacking(rects, largest, limits);
   }
   if (!best) {
-    throw Error(ExitCode::outOfResource, "the light maps do not fit into one OpenGL texture array; bake with a lower --density");
+    throw Error(ExitCode::outOfResource,
+                "the light maps do not fit into one OpenGL texture array; bake with a lower --density");
   }
   return *std::move(best);
 }

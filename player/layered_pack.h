@@ -1,8 +1,8 @@
 // Rectangles with a depth, packed into the layers of one texture array.
 //
-// Each rectangle takes `layers` consecutive layers at one place. Rectangles of like depth share a page (a run of layers), so
-// that little of a page's depth stays empty. Pages are powers of two wide and high: a texel centre times the size is
-// then exact in float, and a lookup clamped to texel centres never reads a neighbour; no gutter is needed.
+// Each rectangle takes `layers` consecutive layers at one place. Rectangles of like depth share a page (a run of
+// layers), so that little of a page's depth stays empty. Pages are powers of two wide and high: a texel centre times
+// the size is then exact in float, and a lookup clamped to texel centres never reads a neighbour; no gutter is needed.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,8 @@ Vec3f mirrorDirection(Vec3f normal, Vec3f toEye) {
   return normalize(r - normal * std::min(dot(normal, r), 0.f));
 }
 
-Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell> cells, std::span<const Rgb> values, Rgb E) {
+Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell> cells, std::span<const Rgb> values,
+                     Rgb E) {
   LUCARNE_CHECK_EQ(cells.size(), values.size());
   const float sharpness = lobeSharpness(alpha, view.directionCount);
   const Vec3f r = mirrorDirection(view.normal, view.toEye);
@@ -37,8 +38,8 @@ Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell
   return constant > 0 ? light / constant : E * std::numbers::inv_pi_v<float>;
 }
 
-Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const LobeCell> cells, std::span<const Rgb> values,
-                      Rgb E) {
+Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const LobeCell> cells,
+                      std::span<const Rgb> values, Rgb E) {
   const float cosine = std::clamp(dot(view.normal, view.toEye), 0.f, 1.f);
   const Vec2f sb = SpecularTable::instance().scaleBias(cosine, bsdf.alpha);
   const Rgb rho = bsdf.f0 * sb.x + bsdf.f90 * sb.y;

@@ -1,7 +1,7 @@
 // How light maps become radiance toward the eye: the reference that the shaders follow, for tests and for tools.
 //
-// Exact radiance is Lo = Le + ∫ f(wi, wo)·Li·cos dwi. The maps hold B_ψ = ∫_cell Li·cos dwi for each cell of the side, and
-// E = Σ B_ψ. With the BSDF of bsdf.h, ρ the directional albedo of its coat and c that of its base:
+// Exact radiance is Lo = Le + ∫ f(wi, wo)·Li·cos dwi. The maps hold B_ψ = ∫_cell Li·cos dwi for each cell of the side,
+// and E = Σ B_ψ. With the BSDF of bsdf.h, ρ the directional albedo of its coat and c that of its base:
 //
 //   Lo = Le + c/π · (1 − max ρ(wo)) · E + ρ(wo) · (Σ B_ψ w_ψ) / (Σ C_ψ w_ψ)
 //
@@ -12,9 +12,9 @@
 // above the horizon, is what constant radiance 1 would have stored. So constant light L gives exactly L·ρ, whatever the
 // weights are. Empty maps are members too: they count in the denominator.
 //
-// w_ψ is the reflection lobe averaged over the cell. Both are taken as Gaussians on the sphere, exp(λ(cos − 1)): the lobe
-// around the mirror direction r, the cell around its mean direction d_ψ. Averaging is a convolution, which adds the
-// variances 1/λ:
+// w_ψ is the reflection lobe averaged over the cell. Both are taken as Gaussians on the sphere, exp(λ(cos − 1)): the
+// lobe around the mirror direction r, the cell around its mean direction d_ψ. Averaging is a convolution, which adds
+// the variances 1/λ:
 //
 //   w_ψ = exp(λ(r·d_ψ − 1)),   1/λ = 1/λ_lobe + 1/λ_cell
 //
@@ -22,10 +22,10 @@
 // comes from α (phong.h), so λ_lobe = (1/α² + 1)/2.
 // λ_cell: for a cap of solid angle Ω_c the mean of 1 − cos is Ω_c/4π, for the Gaussian 1/λ: λ_cell = 4π/Ω_c = |Ω|.
 // Against the true average of cosⁿ over Voronoi cells (|Ω| 14 … 256, n 1 … 1000, mirror direction up to 75° off the
-// normal; half the summed difference of the normalised C·w) λ_lobe = n + 1 beats n and n + 2 for n = 1 and equals them elsewhere, and
-// 1.2·|Ω| is the best λ_cell for small sets and as good for large ones: 2 % to 5 % in most cases, at worst 11 %
-// (n = 1000, |Ω| ≤ 32). One λ_cell serves all cells, also those that the horizon cuts: a sliver must not have a say of its
-// own.
+// normal; half the summed difference of the normalised C·w) λ_lobe = n + 1 beats n and n + 2 for n = 1 and equals them
+// elsewhere, and 1.2·|Ω| is the best λ_cell for small sets and as good for large ones: 2 % to 5 % in most cases, at
+// worst 11 % (n = 1000, |Ω| ≤ 32). One λ_cell serves all cells, also those that the horizon cuts: a sliver must not
+// have a say of its own.
 //
 // A lobe narrower than a cell is so widened to the cell, with its energy kept by the division.
 #pragma once
@@ -59,9 +59,10 @@ struct LobeView {
 };
 
 /// (Σ B w) / (Σ C w), cd/m²; E/π where `cells` is empty. `values`: B of the cells, lx, in the same order.
-Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell> cells, std::span<const Rgb> values, Rgb E);
+Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell> cells, std::span<const Rgb> values,
+                     Rgb E);
 /// Lo without emission, cd/m².
-Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const LobeCell> cells, std::span<const Rgb> values,
-                      Rgb E);
+Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const LobeCell> cells,
+                      std::span<const Rgb> values, Rgb E);
 
 }  // namespace lucarne

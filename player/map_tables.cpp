@@ -21,7 +21,8 @@ std::vector<std::uint16_t> orderedMembers(const SideMaps& side) {
 }
 
 int storedCount(const SideMaps& side) {
-  return static_cast<int>(std::count_if(side.directions.begin(), side.directions.end(), [](const auto& d) { return d.stored(); }));
+  return static_cast<int>(
+      std::count_if(side.directions.begin(), side.directions.end(), [](const auto& d) { return d.stored(); }));
 }
 
 /// Cells of one horizon after another; axis-aligned scenes have few different ones.
@@ -67,7 +68,8 @@ LayeredPacking packSides(const LightMaps& maps, int maxLayers, const TextureLimi
     const int layers = side.lit ? layersOf(side) : 0;
     if (layers == 0) continue;
     const int strips = (layers + maxLayers - 1) / maxLayers;
-    if (strips > limits.size / side.width) throw Error(ExitCode::outOfResource, "a chart has more directions than OpenGL can hold");
+    if (strips > limits.size / side.width)
+      throw Error(ExitCode::outOfResource, "a chart has more directions than OpenGL can hold");
     rects.push_back({side.width * strips, side.height, std::min(layers, maxLayers)});
     owner.push_back(i);
   }

@@ -16,7 +16,7 @@ struct MapTables {
   std::vector<GpuSide> sides;  // [0] absorbs
   // Of planar charts vec4(mean direction, C); of the others ψ in the last component, the rest unused.
   std::vector<LobeTexel> cells;
-  int wordsPerSide = 1;                 // ⌈|Ω|/32⌉
+  int wordsPerSide = 1;                   // ⌈|Ω|/32⌉
   std::vector<GpuMemberBits> memberBits;  // [record · wordsPerSide + ψ/32]
   int layersPerStrip = 1;
   LayeredPacking directional, irradiance;

@@ -28,7 +28,8 @@ TexelCoding codingOf(LightMapFormat format) {
     case LightMapFormat::float32:
       return {GL_RGBA32F, GL_RGB, GL_FLOAT, 12, [](Rgb v, std::byte* to) { store(v, to); }};
     case LightMapFormat::rgb9e5:
-      return {GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4, [](Rgb v, std::byte* to) { store(packRgb9e5(v), to); }};
+      return {GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4,
+              [](Rgb v, std::byte* to) { store(packRgb9e5(v), to); }};
     case LightMapFormat::half:
       break;
   }
@@ -60,7 +61,8 @@ std::vector<std::vector<Rectangle>> rectanglesByLayer(const LightMaps& maps, con
       LayeredPlace place = tables.directional.places[i];
       place.x += rank / tables.layersPerStrip * side.width;
       place.layer += rank % tables.layersPerStrip;
-      layers[static_cast<std::size_t>(place.layer)].push_back({&maps.directional[d.first], place, side.width, side.height});
+      layers[static_cast<std::size_t>(place.layer)].push_back(
+          {&maps.directional[d.first], place, side.width, side.height});
       ++rank;
     }
   }
@@ -70,7 +72,8 @@ std::vector<std::vector<Rectangle>> rectanglesByLayer(const LightMaps& maps, con
 GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, LightMapFormat format, float scale) {
   const LayeredPacking& packing = tables.directional;
   const TexelCoding coding = codingOf(format);
-  GlTexture texture = makeTexture({GL_TEXTURE_2D_ARRAY, coding.internal, 1, packing.width, packing.height, packing.layers});
+  GlTexture texture =
+      makeTexture({GL_TEXTURE_2D_ARRAY, coding.internal, 1, packing.width, packing.height, packing.layers});
   const auto pitch = static_cast<std::size_t>(packing.width) * coding.bytes;
   std::vector<std::byte> page(pitch * static_cast<std::size_t>(packing.height));
   const auto layers = rectanglesByLayer(maps, tables);
@@ -79,12 +82,13 @@ GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, Ligh
     for (const Rectangle& r : layers[layer]) {
       const Rgb* from = r.texels;
       for (int y = 0; y < r.height; ++y) {
-        std::byte* to = page.data() + static_cast<std::size_t>(r.place.y + y) * pitch + static_cast<std::size_t>(r.place.x) * coding.bytes;
+        std::byte* to = page.data() + static_cast<std::size_t>(r.place.y + y) * pitch +
+                        static_cast<std::size_t>(r.place.x) * coding.bytes;
         for (int x = 0; x < r.width; ++x, ++from, to += coding.bytes) coding.write(*from * scale, to);
       }
     }
-    glTextureSubImage3D(texture.get(), 0, 0, 0, static_cast<GLint>(layer), packing.width, packing.height, 1, coding.layout,
-                        coding.type, page.data());
+    glTextureSubImage3D(texture.get(), 0, 0, 0, static_cast<GLint>(layer), packing.width, packing.height, 1,
+                        coding.layout, coding.type, page.data());
   }
   return texture;
 }
@@ -130,7 +134,8 @@ GlBuffer storageBuffer(const std::vector<T>& values) {
   GLint64 limit = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   if (values.size() * sizeof(T) > static_cast<std::uint64_t>(limit)) {
-    throw Error(ExitCode::outOfResource, "the lists of light directions are larger than OpenGL allows; bake with fewer --directions");
+    throw Error(ExitCode::outOfResource,
+                "the lists of light directions are larger than OpenGL allows; bake with fewer --directions");
   }
   return makeBuffer(std::span<const T>(values));
 }

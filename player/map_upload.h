@@ -15,8 +15,8 @@ struct GpuMaps {
   GlBuffer sides, cells, memberBits;
   int cellTableNodes = 1, cellTableLayers = 1;
   int layersPerStrip = 1, wordsPerSide = 1;
-  float mapUnit = 1;        // lx per stored unit of `directional`, a power of two
-  float cellSharpness = 1;  // λ of a cell
+  float mapUnit = 1;                                  // lx per stored unit of `directional`, a power of two
+  float cellSharpness = 1;                            // λ of a cell
   std::uint64_t lightMapBytes = 0, textureBytes = 0;  // the directional maps; all textures here
 };
 

@@ -18,7 +18,8 @@ class Multipass : public MapRenderer {
   Multipass(const DrawList& list, const LightMaps& maps) : passes_(static_cast<std::size_t>(maps.directionCount)) {
     for (std::uint32_t b = 0; b < list.batches.size(); ++b) {
       const Batch& batch = list.batches[b];
-      for (std::uint32_t r = batch.firstRun; r < batch.firstRun + batch.runCount; ++r) addRun(maps, list.runs[r], b, batch.textured);
+      for (std::uint32_t r = batch.firstRun; r < batch.firstRun + batch.runCount; ++r)
+        addRun(maps, list.runs[r], b, batch.textured);
     }
     for (std::size_t psi = 1; psi < passes_.size(); psi += 2) std::reverse(passes_[psi].begin(), passes_[psi].end());
   }
@@ -39,7 +40,8 @@ class Multipass : public MapRenderer {
  private:
   static constexpr GLuint kLobeUnit = 7;
 
-  /// Enters a chart into the passes of the directions that either of its sides has, next to the range before it if it can.
+  /// Enters a chart into the passes of the directions that either of its sides has, next to the range before it if it
+  /// can.
   void addRun(const LightMaps& maps, const ChartRun& run, std::uint32_t batch, bool textured) {
     const MapChart& chart = maps.charts[run.chart];
     std::vector<std::uint16_t> directions;

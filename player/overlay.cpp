@@ -11,9 +11,11 @@ using Count = unsigned long long;
 
 void drawNumbers(const OverlayText& t) {
   const StateCounts &now = t.stats.counts, &unsorted = t.stats.unsorted;
-  ImGui::Text("%.1f fps   %.1f ms   %d x %d", t.frameSeconds > 0 ? 1 / t.frameSeconds : 0., 1000 * t.frameSeconds, t.width, t.height);
+  ImGui::Text("%.1f fps   %.1f ms   %d x %d", t.frameSeconds > 0 ? 1 / t.frameSeconds : 0., 1000 * t.frameSeconds,
+              t.width, t.height);
   if (t.gpuSeconds) ImGui::Text("GPU %.2f ms", 1000 * *t.gpuSeconds);
-  ImGui::Text("%s   %d directions", t.renderer == RendererKind::multipass ? "multipass" : "singlepass", t.stats.directions);
+  ImGui::Text("%s   %d directions", t.renderer == RendererKind::multipass ? "multipass" : "singlepass",
+              t.stats.directions);
   ImGui::Separator();
   ImGui::Text("                 sorted   unsorted");
   ImGui::Text("draws          %8llu   %8llu", Count{now.draws}, Count{unsorted.draws});

@@ -10,12 +10,12 @@ struct GLFWwindow;
 namespace lucarne {
 
 struct OverlayText {
-  double frameSeconds = 0;             // smoothed
-  std::optional<double> gpuSeconds;    // where the driver's timer can be believed
+  double frameSeconds = 0;           // smoothed
+  std::optional<double> gpuSeconds;  // where the driver's timer can be believed
   RendererKind renderer = RendererKind::singlepass;
   RenderStats stats;
-  double photons = 0;                  // 0: not known
-  int width = 0, height = 0;           // drawn pixels
+  double photons = 0;         // 0: not known
+  int width = 0, height = 0;  // drawn pixels
   double exposureStops = 0;
   bool help = false;
 };

@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongestStep = 0.1;        // seconds: a slow frame must not throw the walker through a wall
+constexpr double kLongestStep = 0.1;  // seconds: a slow frame must not throw the walker through a wall
 constexpr int kFramesPerMetering = 8;
 constexpr double kAdaptationSeconds = 0.4;  // of the eye
 constexpr float kStopPerKey = 0.5f;
@@ -103,7 +103,8 @@ class Session {
   const FrameTarget& target(Window::Size size) {
     const int width = std::max(1, static_cast<int>(std::lround(size.width * scale_.scale())));
     const int height = std::max(1, static_cast<int>(std::lround(size.height * scale_.scale())));
-    if (!target_ || target_->width != width || target_->height != height) target_ = std::make_unique<FrameTarget>(width, height, false);
+    if (!target_ || target_->width != width || target_->height != height)
+      target_ = std::make_unique<FrameTarget>(width, height, false);
     return *target_;
   }
 
@@ -123,7 +124,8 @@ class Session {
     timer_.end();
     adapt(frame, step);
     display_.show(frame, exposure_ * std::exp2(stops_), size.width, size.height);
-    overlay_.draw({smoothedStep_, timer_.seconds(), kind_, renderer_.stats(), options_.photons, frame.width, frame.height, stops_, help_});
+    overlay_.draw({smoothedStep_, timer_.seconds(), kind_, renderer_.stats(), options_.photons, frame.width,
+                   frame.height, stops_, help_});
     ++frame_;
     if (options_.frames > 0 && frame_ >= static_cast<std::uint64_t>(options_.frames)) {
       window_.close();

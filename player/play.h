@@ -11,13 +11,13 @@
 namespace lucarne {
 
 struct PlayOptions {
-  RenderOptions render;               // the window's first size, the first renderer, the light maps' format
-  std::string camera;                 // as chooseCamera()
+  RenderOptions render;  // the window's first size, the first renderer, the light maps' format
+  std::string camera;    // as chooseCamera()
   std::string title = "Lucarne";
-  double renderScale = 1;             // drawn pixels per window pixel, each way, 0.1 … 1
-  double photons = 0;                 // of the bake, for the overlay; 0: not known
-  int frames = 0;                     // > 0: ends after that many
-  std::filesystem::path screenshot;   // not empty: the last frame with its overlay, as PNG
+  double renderScale = 1;            // drawn pixels per window pixel, each way, 0.1 … 1
+  double photons = 0;                // of the bake, for the overlay; 0: not known
+  int frames = 0;                    // > 0: ends after that many
+  std::filesystem::path screenshot;  // not empty: the last frame with its overlay, as PNG
 };
 
 /// How the session went.

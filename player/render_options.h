@@ -33,11 +33,11 @@ struct StateCounts {
 
 struct RenderStats {
   StateCounts counts;
-  StateCounts unsorted;  // the same frame drawn chart by chart, direction by direction, nothing remembered
-  std::uint64_t textureBytes = 0;      // light maps, tables and material textures
-  std::uint64_t lightMapBytes = 0;     // of them the directional maps
-  int directions = 0;                  // |Ω|
-  std::string driver;                  // GL_RENDERER
+  StateCounts unsorted;             // the same frame drawn chart by chart, direction by direction, nothing remembered
+  std::uint64_t textureBytes = 0;   // light maps, tables and material textures
+  std::uint64_t lightMapBytes = 0;  // of them the directional maps
+  int directions = 0;               // |Ω|
+  std::string driver;               // GL_RENDERER
   double loadSeconds = 0, frameSeconds = 0;
 };
 

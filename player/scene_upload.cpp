@@ -41,7 +41,8 @@ GlTexture uploadSpecularTable() {
   std::vector<Vec2f> nodes;
   for (int j = 0; j < n; ++j) {
     const float roughness = static_cast<float>(j) / (n - 1);
-    for (int i = 0; i < n; ++i) nodes.push_back(table.scaleBias(static_cast<float>(i) / (n - 1), roughness * roughness));
+    for (int i = 0; i < n; ++i)
+      nodes.push_back(table.scaleBias(static_cast<float>(i) / (n - 1), roughness * roughness));
   }
   GlTexture texture = makeTexture({GL_TEXTURE_2D, GL_RG32F, 1, n, n, 1});
   glTextureSubImage2D(texture.get(), 0, 0, 0, n, n, GL_RG, GL_FLOAT, nodes.data());

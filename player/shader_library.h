@@ -15,8 +15,8 @@ struct ShaderFile {
 /// Every file of player/shaders (generated).
 std::span<const ShaderFile> shaderFiles();
 
-/// "#version", one "#define NAME 1" for each of `defines` ("NAME" or "NAME value"), then the named files in order, each with
-/// a #line directive, so that compile errors point into the file. Throws std::logic_error for an unknown name.
+/// "#version", one "#define NAME 1" for each of `defines` ("NAME" or "NAME value"), then the named files in order, each
+/// with a #line directive, so that compile errors point into the file. Throws std::logic_error for an unknown name.
 std::string assembleShader(std::span<const std::string_view> names, std::span<const std::string> defines);
 
 }  // namespace lucarne

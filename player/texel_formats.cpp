@@ -32,7 +32,9 @@ std::uint32_t packRgb9e5(Rgb value) {
 
 Rgb unpackRgb9e5(std::uint32_t bits) {
   const float unit = std::ldexp(1.f, static_cast<int>(bits >> 27) - kExponentBias - kMantissaBits);
-  return Rgb{static_cast<float>(bits & 511u), static_cast<float>(bits >> 9 & 511u), static_cast<float>(bits >> 18 & 511u)} * unit;
+  return Rgb{static_cast<float>(bits & 511u), static_cast<float>(bits >> 9 & 511u),
+             static_cast<float>(bits >> 18 & 511u)} *
+         unit;
 }
 
 float halfScale(float largest) {

@@ -42,7 +42,8 @@ GLuint SceneTextures::upload(const Scene& scene, const TextureUse& use, bool srg
   const Image& image = scene.images[source.image];
   if (image.width < 1 || image.height < 1) return white_.get();
   const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
-  GlTexture texture = makeTexture({GL_TEXTURE_2D, GLenum(srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8), levels, image.width, image.height, 1});
+  GlTexture texture =
+      makeTexture({GL_TEXTURE_2D, GLenum(srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8), levels, image.width, image.height, 1});
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(texture.get(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
   glGenerateTextureMipmap(texture.get());

@@ -8,9 +8,9 @@
 
 namespace lucarne {
 
-/// Factor that brings the log average of the lit pixels to middle grey. Pixels darker than a ten-thousandth of the brightest hundredth
-/// do not count (a black sky would open the aperture wide), and single bright ones count as the brightest
-/// hundredth. 1 for a black picture; finite always.
+/// Factor that brings the log average of the lit pixels to middle grey. Pixels darker than a ten-thousandth of the
+/// brightest hundredth do not count (a black sky would open the aperture wide), and single bright ones count as the
+/// brightest hundredth. 1 for a black picture; finite always.
 float autoExposure(const ImageRgb& image);
 
 /// Filmic curve 0..∞ → 0..1 (the fit of Narkowicz 2015 to the ACES curve), per channel.

@@ -28,7 +28,8 @@ class WalkCamera {
   double yfov_, speed_;
 };
 
-/// A walk in metres a second where the scene has a walkable size, and a share of its size where it has not; local units a second.
+/// A walk in metres a second where the scene has a walkable size, and a share of its size where it has not; local units
+/// a second.
 double walkSpeed(const Scene& scene);
 
 }  // namespace lucarne

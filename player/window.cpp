@@ -25,7 +25,8 @@ std::string glfwReason() {
 void requireDisplay() {
   const char* display = std::getenv("DISPLAY");
   if (display == nullptr || *display == '\0') {
-    throw Error(ExitCode::failed, "play opens a window, but there is no display (DISPLAY is not set); use lucarne render for pictures");
+    throw Error(ExitCode::failed,
+                "play opens a window, but there is no display (DISPLAY is not set); use lucarne render for pictures");
   }
   if (glfwInit() != GLFW_TRUE) throw Error(ExitCode::failed, "the display cannot be opened: " + glfwReason());
 }

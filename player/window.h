@@ -32,7 +32,8 @@ class Window {
   void poll();
   /// Keys pressed since the last call, in order.
   std::vector<WalkKey> takeKeys();
-  /// Held keys and the mouse's way since the last call. The mouse turns the head while it is held by the window: click to hold it, Esc lets go.
+  /// Held keys and the mouse's way since the last call. The mouse turns the head while it is held by the window: click
+  /// to hold it, Esc lets go.
   WalkInput takeWalk();
   bool closing() const;
   void close();

@@ -11,7 +11,7 @@ vec3 irradianceAt(Side side) {
 vec3 emittedRadiance(Material m) {
   vec3 Le = m.emissiveRoughness.rgb;
 #ifdef TEXTURED
-  Le *= texture(emissiveTexture, materialUv(m, 2)).rgb;
+  Le *= materialTexel(emissiveTexture, m, 2).rgb;
 #endif
   return Le;
 }
@@ -22,8 +22,8 @@ vec3 outgoingRadiance(Side side, Material m, vec3 n, vec4 lobe) {
   float metallic = m.baseColorMetallic.a;
   float roughness = sqrt(materialAlpha(m));
 #ifdef TEXTURED
-  base *= texture(baseColorTexture, materialUv(m, 0)).rgb;
-  metallic *= texture(metallicRoughnessTexture, materialUv(m, 1)).b;
+  base *= materialTexel(baseColorTexture, m, 0).rgb;
+  metallic *= materialTexel(metallicRoughnessTexture, m, 1).b;
 #endif
   vec3 Le = emittedRadiance(m);
   if ((side.flags & kPresent) == 0u) return vec3(0);

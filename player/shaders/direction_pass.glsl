@@ -9,11 +9,10 @@ uniform ivec2 direction;  // ψ, words a side
 
 layout(location = 0) out vec4 sums;
 
-vec4 lobeTerm(Side side, uint rank, bool isStored) {
-  Material m = materials[materialIndex];
+vec4 lobeTerm(Side side, uint rank, bool isStored, float alpha) {
   vec3 n = shadingNormal();
   vec4 cell = cellAt(side.firstCell + rank, octahedral(n));
-  float w = lobeWeight(lobeSharpness(materialAlpha(m)), dot(mirrorDirection(n), cell.xyz));
+  float w = lobeWeight(lobeSharpness(alpha), dot(mirrorDirection(n), cell.xyz));
   vec3 value = vec3(0);
   if (isStored) {
     uint strip = rank / uint(layersPerStrip);
@@ -24,14 +23,14 @@ vec4 lobeTerm(Side side, uint rank, bool isStored) {
 }
 
 void main() {
-  if (!ownsPixel()) discard;
+  float alpha = materialAlpha(materials[materialIndex]);
   uint id = gl_FrontFacing ? v.sides.x : v.sides.y;
   MemberBits bits = memberBits[id * uint(direction.y) + uint(direction.x >> 5)];
   uint bit = 1u << uint(direction.x & 31);
   bool isStored = (bits.stored & bit) != 0u, isEmpty = (bits.empty & bit) != 0u;
-  if (!isStored && !isEmpty) discard;
+  if (!ownsPixel() || (!isStored && !isEmpty)) discard;
   Side side = sideRecords[id];
   uint rank = isStored ? bits.storedBefore + bitCount(bits.stored & (bit - 1u))
                        : side.stored + bits.emptyBefore + bitCount(bits.empty & (bit - 1u));
-  sums = lobeTerm(side, rank, isStored);
+  sums = lobeTerm(side, rank, isStored, alpha);
 }

@@ -26,9 +26,9 @@ vec4 lobeSums(Side side, Material m, vec3 n) {
 }
 
 void main() {
-  if (!ownsPixel()) discard;
   Side side = visibleSide();
   Material m = materials[materialIndex];
   vec3 n = shadingNormal();
   color = vec4(outgoingRadiance(side, m, n, lobeSums(side, m, n)) * outputScale, 1);
+  if (!ownsPixel()) discard;
 }

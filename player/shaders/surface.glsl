@@ -42,6 +42,8 @@ uniform float cellSharpness;  // λ of a cell of Ω
 const float kPi = 3.14159265358979;
 const float kMinAlpha = 1e-3;
 
+// To be asked after the textures are read: pixels given up before would leave their neighbours without derivatives, and
+// with a wrong mipmap along the borders of charts.
 bool ownsPixel() { return texelFetch(ownerImage, ivec2(gl_FragCoord.xy), 0).r == v.sides.x; }
 
 Side visibleSide() { return sideRecords[gl_FrontFacing ? v.sides.x : v.sides.y]; }
@@ -49,15 +51,22 @@ Side visibleSide() { return sideRecords[gl_FrontFacing ? v.sides.x : v.sides.y];
 // Shading normal on the visible side.
 vec3 shadingNormal() { return normalize(gl_FrontFacing ? v.normal : -v.normal); }
 
-vec2 materialUv(Material m, int use) {
-  vec2 uv = m.offset[use].z > 0.5 ? v.uv.zw : v.uv.xy;
-  return vec2(dot(m.linear[use].xy, uv), dot(m.linear[use].zw, uv)) + m.offset[use].xy;
+#ifdef TEXTURED
+// Derivatives are taken of the attributes alone: a pixel beyond the edge of its triangle, there only for its neighbours'
+// derivatives, may read zeros from buffers (llvmpipe), and what it makes of `m` is then wrong.
+vec4 materialTexel(sampler2D image, Material m, int use) {
+  bool second = m.offset[use].z > 0.5;
+  vec4 dx = dFdx(v.uv), dy = dFdy(v.uv);
+  vec2 uv = second ? v.uv.zw : v.uv.xy, ux = second ? dx.zw : dx.xy, uy = second ? dy.zw : dy.xy;
+  mat2 linear = transpose(mat2(m.linear[use].xy, m.linear[use].zw));
+  return textureGrad(image, linear * uv + m.offset[use].xy, linear * ux, linear * uy);
 }
+#endif
 
 float materialAlpha(Material m) {
   float roughness = m.emissiveRoughness.w;
 #ifdef TEXTURED
-  roughness *= texture(metallicRoughnessTexture, materialUv(m, 1)).g;
+  roughness *= materialTexel(metallicRoughnessTexture, m, 1).g;
 #endif
   return max(roughness * roughness, kMinAlpha);
 }

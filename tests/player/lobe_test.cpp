@@ -96,7 +96,8 @@ TEST(Lobe, WeightsAgreeWithTheLobeAveragedOverTheCells) {
           exactSum += exact[k];
           ourSum += ours[k];
         }
-        for (std::size_t k = 0; k < exact.size(); ++k) difference += 0.5 * std::abs(exact[k] / exactSum - ours[k] / ourSum);
+        for (std::size_t k = 0; k < exact.size(); ++k)
+          difference += 0.5 * std::abs(exact[k] / exactSum - ours[k] / ourSum);
         sum += difference;
         worst = std::max(worst, difference);
       }

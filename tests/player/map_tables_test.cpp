@@ -21,7 +21,9 @@ TEST_P(MapTablesTest, MembersAreFoundByTheirBits) {
     for (const SideDirection& d : side.directions) {
       const GpuMemberBits& word = t.memberBits[(i + 1) * static_cast<std::size_t>(t.wordsPerSide) + d.psi / 32];
       const std::uint32_t bit = 1u << (d.psi % 32), before = bit - 1;
-      const auto count = [&](std::uint32_t bits) { return static_cast<std::uint32_t>(__builtin_popcount(bits & before)); };
+      const auto count = [&](std::uint32_t bits) {
+        return static_cast<std::uint32_t>(__builtin_popcount(bits & before));
+      };
       EXPECT_EQ((word.stored & bit) != 0, d.stored());
       EXPECT_EQ((word.empty & bit) != 0, !d.stored());
       if (d.stored()) {

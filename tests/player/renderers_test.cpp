@@ -54,7 +54,8 @@ TEST_F(Renderers, SinglepassAndMultipassAgreeOnEveryKindOfSide) {
 TEST_F(Renderers, TheSameInputGivesTheSameBits) {
   const BakedScene baked = test::furnishedRoom(14);
   for (const RendererKind kind : {RendererKind::singlepass, RendererKind::multipass}) {
-    const ImageRgb a = render(baked, kind, LightMapFormat::half, 131, 77), b = render(baked, kind, LightMapFormat::half, 131, 77);
+    const ImageRgb a = render(baked, kind, LightMapFormat::half, 131, 77),
+                   b = render(baked, kind, LightMapFormat::half, 131, 77);
     EXPECT_EQ(a.pixels, b.pixels);
   }
 }
@@ -78,7 +79,8 @@ TEST_F(Renderers, CountersShowWhatSortingSaves) {
   EXPECT_LT(stats.counts.draws, stats.unsorted.draws);
   render(baked, RendererKind::singlepass, LightMapFormat::float32, 16, 16, &stats);
   EXPECT_EQ(stats.counts.directionSwitches, 0u);
-  EXPECT_EQ(stats.counts.draws, 1u + 6u + 1u);  // the pre-pass, one a material, and one material is on flat and curved charts
+  EXPECT_EQ(stats.counts.draws,
+            1u + 6u + 1u);  // the pre-pass, one a material, and one material is on flat and curved charts
   EXPECT_GT(stats.textureBytes, stats.lightMapBytes);
 }
 
@@ -93,7 +95,8 @@ BakedScene plate(int directions, const Material& material, const test::IncidentR
 
 TEST_F(Renderers, DiffuseLightIsAlbedoOverPiTimesIrradiance) {
   const Rgb albedo{0.8f, 0.4f, 0.2f}, L{10.f, 20.f, 30.f};
-  const BakedScene baked = plate(14, test::diffuseMaterial(albedo), test::constantRadiance(L), {0.5, 0.3, 2}, {true, false, 0});
+  const BakedScene baked =
+      plate(14, test::diffuseMaterial(albedo), test::constantRadiance(L), {0.5, 0.3, 2}, {true, false, 0});
   const Rgb Lo = centre(render(baked, RendererKind::singlepass, LightMapFormat::half, 33, 17));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lo[c], albedo[c] * L[c], 1e-4f * L[c]);  // E = π·L
 }
@@ -126,7 +129,8 @@ Material coat(float exponent) {
 template <class CosineAt>
 double worstHighlight(const BakedScene& baked, float L, const CosineAt& cosineAt, int size) {
   const ImageRgb image = render(baked, RendererKind::singlepass, LightMapFormat::float32, size, size);
-  const Bsdf bsdf = makeBsdf(baked.scene.materials[0], baked.scene.materials[0].baseColor, 1, baked.scene.materials[0].roughness);
+  const Bsdf bsdf =
+      makeBsdf(baked.scene.materials[0], baked.scene.materials[0].baseColor, 1, baked.scene.materials[0].roughness);
   double worst = 0;
   int shown = 0;
   for (int y = 0; y < size; ++y) {
@@ -157,15 +161,15 @@ TEST_F(Renderers, ConstantLightGivesAConstantHighlightOnAFlatPlate) {
     for (const float exponent : {1.f, 3.f, 10.f, 30.f, 100.f}) {
       const BakedScene baked = plate(directions, coat(exponent), test::constantRadiance(Rgb(2.f)), {1.5, 0.4, 1.2});
       const Camera& camera = baked.scene.cameras[0];
-      const double worst =
-          worstHighlight(baked, 2.f, [&](int x, int y) { return -rayThrough(camera, x, y, kSize).z; }, kSize);
+      const double worst = worstHighlight(
+          baked, 2.f, [&](int x, int y) { return -rayThrough(camera, x, y, kSize).z; }, kSize);
       EXPECT_LT(worst, 2e-3) << directions << " directions, exponent " << exponent;
     }
   }
 }
 
-/// True between the centres of a sphere patch's texels; outside them maps are clamped, in a bake too, and hold the light of another
-/// normal.
+/// True between the centres of a sphere patch's texels; outside them maps are clamped, in a bake too, and hold the
+/// light of another normal.
 bool amongTexelCentres(Vec3d n, int texels) {
   const Vec3d a{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
   const double margin = 1 - 1.0 / texels, middle = a.x + a.y + a.z - maxComponent(a) - minComponent(a);
@@ -183,14 +187,16 @@ TEST_F(Renderers, ConstantLightGivesAConstantHighlightOnASphere) {
     const double radius = 1 / baked.scene.frame.scale;
     const auto cosineAt = [&](int x, int y) {  // at the first meeting with the sphere around the local origin
       const Vec3d d = rayThrough(camera, x, y, kSize);
-      const double along = dot(camera.position, d), rest = along * along - dot(camera.position, camera.position) + radius * radius;
+      const double along = dot(camera.position, d),
+                   rest = along * along - dot(camera.position, camera.position) + radius * radius;
       if (rest <= 0) return 0.;
       const Vec3d n = normalize(camera.position - d * (along + std::sqrt(rest)));
       return amongTexelCentres(n, kTexels) ? -dot(n, d) : 0.;
     };
     for (const float exponent : {1.f, 3.f, 10.f, 30.f, 100.f}) {
       baked.scene.materials[0] = coat(exponent);
-      EXPECT_LT(worstHighlight(baked, 2.f, cosineAt, kSize), 2e-2) << directions << " directions, exponent " << exponent;
+      EXPECT_LT(worstHighlight(baked, 2.f, cosineAt, kSize), 2e-2)
+          << directions << " directions, exponent " << exponent;
     }
   }
 }
@@ -231,6 +237,38 @@ TEST_F(Renderers, DrawsAtTheExtremesOfLight) {
       EXPECT_GT(Lo.x, 0.5f);
       EXPECT_LT(Lo.x, 1.0f);
     }
+  }
+}
+
+TEST_F(Renderers, TexturesKeepTheirMipmapLevelUpToTheEdgesOfTriangles) {
+  // A fine checkerboard seen from near: black or white; grey means that a coarser level was taken somewhere.
+  constexpr int kSize = 64;
+  test::BakedSceneBuilder b(14, test::constantRadiance(Rgb(1.f)));
+  Material m = test::diffuseMaterial(Rgb(1.f));
+  m.baseColorTexture.texture = 0;
+  const std::uint32_t material = b.addMaterial(m);
+  for (int i = -3; i < 3; ++i) {
+    b.addQuad({i * 0.3, -1, 0}, {(i + 1) * 0.3, -1, 0.02 * (i + 3)}, {(i + 1) * 0.3, 1, 0.02 * (i + 3)},
+              {i * 0.3, 1, 0}, material, 2, 2);
+  }
+  b.addCamera({0, 0, 0.45}, {0.01, 0.01, 0}, 0.8);
+  BakedScene baked = b.build();
+  Image image{kSize, kSize, {}};
+  for (int i = 0; i < kSize * kSize; ++i) image.rgba.insert(image.rgba.end(), 4, (i + i / kSize) % 2 ? 255 : 0);
+  baked.scene.images.push_back(image);
+  Texture texture;
+  texture.image = 0;
+  texture.nearest = true;
+  baked.scene.textures.push_back(texture);
+  for (const RendererKind kind : {RendererKind::singlepass, RendererKind::multipass}) {
+    const ImageRgb picture = render(baked, kind, LightMapFormat::float32, 751, 151);
+    int grey = 0, white = 0;
+    for (const Rgb& p : picture.pixels) {
+      grey += p.x > 0.01f && p.x < 0.99f ? 1 : 0;
+      white += p.x >= 0.99f ? 1 : 0;
+    }
+    EXPECT_EQ(grey, 0);
+    EXPECT_GT(white, 20000);
   }
 }
 

@@ -3,7 +3,8 @@
 namespace lucarne::test {
 namespace {
 
-/// Point of the unit sphere over (s, t) in [0, 1]² of one face of the cube; counter-clockwise in (s, t) seen from outside.
+/// Point of the unit sphere over (s, t) in [0, 1]² of one face of the cube; counter-clockwise in (s, t) seen from
+/// outside.
 Vec3d spherePoint(int face, double s, double t) {
   const double a = 2 * s - 1, b = 2 * t - 1;
   const Vec3d cube[6] = {{1, a, b}, {-1, b, a}, {b, 1, a}, {a, -1, b}, {a, b, 1}, {b, a, -1}};
@@ -26,17 +27,20 @@ void BakedSceneBuilder::addQuad(Vec3d a, Vec3d b, Vec3d c, Vec3d d, std::uint32_
   plan.back = back;
   plan.normals = plan.horizons = {Vec3d(plan.chart.normal)};
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) plan.points.push_back(a + (b - a) * ((x + 0.5) / width) + (d - a) * ((y + 0.5) / height));
+    for (int x = 0; x < width; ++x)
+      plan.points.push_back(a + (b - a) * ((x + 0.5) / width) + (d - a) * ((y + 0.5) / height));
   }
   const auto chart = static_cast<std::uint32_t>(plans_.size());
   plans_.push_back(std::move(plan));
   builder_.addQuad(a, b, c, d, material);
   chartOfTriangle_.insert(chartOfTriangle_.end(), 2, chart);
   const double w = width, h = height;
-  for (const Vec2d st : {Vec2d{0, 0}, Vec2d{w, 0}, Vec2d{w, h}, Vec2d{0, h}}) corners_.push_back({chart, st, std::nullopt});
+  for (const Vec2d st : {Vec2d{0, 0}, Vec2d{w, 0}, Vec2d{w, h}, Vec2d{0, h}})
+    corners_.push_back({chart, st, std::nullopt});
 }
 
-void BakedSceneBuilder::addSphere(Vec3d center, double radius, std::uint32_t material, int cells, int texels, SideSpec front) {
+void BakedSceneBuilder::addSphere(Vec3d center, double radius, std::uint32_t material, int cells, int texels,
+                                  SideSpec front) {
   for (int face = 0; face < 6; ++face) addPatch(center, radius, face, material, cells, texels, front);
 }
 
@@ -65,7 +69,8 @@ void BakedSceneBuilder::addPatch(Vec3d center, double radius, int face, std::uin
         plan.horizons.push_back(n[k]);
         corners_.push_back({chart, st[k] * (static_cast<double>(texels) / cells), n[k]});
       }
-      builder_.addQuad(center + n[0] * radius, center + n[1] * radius, center + n[2] * radius, center + n[3] * radius, material);
+      builder_.addQuad(center + n[0] * radius, center + n[1] * radius, center + n[2] * radius, center + n[3] * radius,
+                       material);
       chartOfTriangle_.insert(chartOfTriangle_.end(), 2, chart);
     }
   }
@@ -127,7 +132,8 @@ BakedScene BakedSceneBuilder::build() {
                          static_cast<float>((chart.atlasY + corners_[i].st.y) / maps.atlasHeight)});
     if (corners_[i].normal) scene.normals[i] = Vec3f(*corners_[i].normal);
   }
-  for (std::size_t t = 0; t < scene.triangles.size(); ++t) scene.smooth[t] = maps.charts[chartOfTriangle_[t]].smooth ? 1 : 0;
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+    scene.smooth[t] = maps.charts[chartOfTriangle_[t]].smooth ? 1 : 0;
   return baked;
 }
 
@@ -140,7 +146,9 @@ namespace {
 /// A lamp near the ceiling, a window at −x, bounce light that is a little red on the right.
 Rgb roomLight(Vec3d p, Vec3d direction) {
   const Vec3d toLamp = Vec3d{0, 2.6, 0} - p, toWindow = Vec3d{-2.5, 1.4, 0.5} - p;
-  const auto glow = [&](Vec3d to, double width) { return std::exp(-(1 - dot(normalize(to), direction)) / width) / (1 + dot(to, to)); };
+  const auto glow = [&](Vec3d to, double width) {
+    return std::exp(-(1 - dot(normalize(to), direction)) / width) / (1 + dot(to, to));
+  };
   const Rgb bounce = Rgb{6.f, 5.f, 4.f} * (direction.x > 0 ? 1.2f : 0.8f);
   return bounce + Rgb{400.f, 340.f, 260.f} * static_cast<float>(glow(toLamp, 0.06)) +
          Rgb{90.f, 120.f, 200.f} * static_cast<float>(glow(toWindow, 0.15));
@@ -168,12 +176,12 @@ BakedScene furnishedRoom(int directionCount) {
   const std::uint32_t lamp = b.addMaterial(diffuseMaterial({0.8f, 0.8f, 0.8f}, {3000.f, 2700.f, 2200.f}));
   const SideSpec irradianceOnly{true, false, 0}, unlit{false, true, 0}, thinned{true, true, 3};
 
-  b.addQuad({-2.5, 0, 2}, {2.5, 0, 2}, {2.5, 0, -2}, {-2.5, 0, -2}, floor, 40, 32);                          // floor
-  b.addQuad({-2.5, 2.8, -2}, {2.5, 2.8, -2}, {2.5, 2.8, 2}, {-2.5, 2.8, 2}, wall, 20, 16, irradianceOnly);   // ceiling
-  b.addQuad({-2.5, 0, -2}, {2.5, 0, -2}, {2.5, 2.8, -2}, {-2.5, 2.8, -2}, wall, 20, 11, irradianceOnly);     // −z
-  b.addQuad({2.5, 0, 2}, {-2.5, 0, 2}, {-2.5, 2.8, 2}, {2.5, 2.8, 2}, plastic, 20, 11, thinned);             // +z
-  b.addQuad({-2.5, 0, 2}, {-2.5, 0, -2}, {-2.5, 2.8, -2}, {-2.5, 2.8, 2}, plastic, 16, 11);                  // −x
-  b.addQuad({2.5, 0, -2}, {2.5, 0, 2}, {2.5, 2.8, 2}, {2.5, 2.8, -2}, wall, 16, 11, irradianceOnly);         // +x
+  b.addQuad({-2.5, 0, 2}, {2.5, 0, 2}, {2.5, 0, -2}, {-2.5, 0, -2}, floor, 40, 32);                         // floor
+  b.addQuad({-2.5, 2.8, -2}, {2.5, 2.8, -2}, {2.5, 2.8, 2}, {-2.5, 2.8, 2}, wall, 20, 16, irradianceOnly);  // ceiling
+  b.addQuad({-2.5, 0, -2}, {2.5, 0, -2}, {2.5, 2.8, -2}, {-2.5, 2.8, -2}, wall, 20, 11, irradianceOnly);    // −z
+  b.addQuad({2.5, 0, 2}, {-2.5, 0, 2}, {-2.5, 2.8, 2}, {2.5, 2.8, 2}, plastic, 20, 11, thinned);            // +z
+  b.addQuad({-2.5, 0, 2}, {-2.5, 0, -2}, {-2.5, 2.8, -2}, {-2.5, 2.8, 2}, plastic, 16, 11);                 // −x
+  b.addQuad({2.5, 0, -2}, {2.5, 0, 2}, {2.5, 2.8, 2}, {2.5, 2.8, -2}, wall, 16, 11, irradianceOnly);        // +x
   b.addQuad({0.2, 0.8, 0.5}, {1.6, 0.8, 0.5}, {1.6, 0.8, -0.6}, {0.2, 0.8, -0.6}, top, 14, 11, thinned, SideSpec{});
   b.addQuad({-0.3, 2.7, -0.3}, {0.3, 2.7, -0.3}, {0.3, 2.7, 0.3}, {-0.3, 2.7, 0.3}, lamp, 6, 6, irradianceOnly);
   b.addQuad({1.9, 0.01, -1}, {2.4, 0.01, -1}, {2.4, 0.6, -1.9}, {1.9, 0.6, -1.9}, plastic, 4, 4, unlit, SideSpec{});

@@ -47,9 +47,9 @@ class BakedSceneBuilder {
     MapChart chart;
     SideSpec front;
     std::optional<SideSpec> back;
-    std::vector<Vec3d> normals;  // of the texels' centres, row by row; one for flat charts
-    std::vector<Vec3d> points;   // of the texels' centres, metres
-    std::vector<Vec3d> horizons; // normals that decide which directions are members
+    std::vector<Vec3d> normals;   // of the texels' centres, row by row; one for flat charts
+    std::vector<Vec3d> points;    // of the texels' centres, metres
+    std::vector<Vec3d> horizons;  // normals that decide which directions are members
   };
   void addPatch(Vec3d center, double radius, int face, std::uint32_t material, int cells, int texels, SideSpec front);
   void addSide(LightMaps& maps, const ChartPlan& plan, std::uint32_t chart, bool back);
@@ -61,8 +61,8 @@ class BakedSceneBuilder {
   std::vector<std::uint32_t> chartOfTriangle_;
   struct Corner {
     std::uint32_t chart;
-    Vec2d st;                      // texel coordinates
-    std::optional<Vec3d> normal;   // of smooth charts
+    Vec2d st;                     // texel coordinates
+    std::optional<Vec3d> normal;  // of smooth charts
   };
   std::vector<Corner> corners_;  // a vertex
 };
@@ -70,8 +70,8 @@ class BakedSceneBuilder {
 /// Radiance `L` from everywhere.
 IncidentRadiance constantRadiance(Rgb L);
 
-/// A furnished room for the comparison of renderers, with every kind of side: flat, smooth, two-sided, with empty maps, with
-/// irradiance alone, unlit, textured.
+/// A furnished room for the comparison of renderers, with every kind of side: flat, smooth, two-sided, with empty maps,
+/// with irradiance alone, unlit, textured.
 BakedScene furnishedRoom(int directionCount);
 
 }  // namespace lucarne::test

@@ -13,7 +13,8 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInf = std::nume
 
 TEST(TexelFormats, SharedExponentKeepsTheLargestComponentToHalfAStep) {
   for (int i = 0; i < 4000; ++i) {
-    const Rgb v = Rgb{1.f, 0.37f, 0.011f} * std::exp2(static_cast<float>(i % 28) - 13.f) * (1.f + static_cast<float>(i) / 4000.f);
+    const Rgb v =
+        Rgb{1.f, 0.37f, 0.011f} * std::exp2(static_cast<float>(i % 28) - 13.f) * (1.f + static_cast<float>(i) / 4000.f);
     const Rgb back = unpackRgb9e5(packRgb9e5(v));
     const float step = v.x / 256.f;  // mantissas of the largest lie in 256 … 511
     for (int c = 0; c < 3; ++c) EXPECT_LE(std::abs(back[c] - v[c]), 0.5001f * step) << i;
