@@ -1,0 +1,33 @@
+#include "app/view/walk.h"
+#include "base/log.h"
+#include "base/units.h"
+#include "cli/commands.h"
+#include "cli/view/render_arguments.h"
+
+namespace lucarne {
+
+void addPlay(CLI::App& app, Action& action) {
+  CLI::App* cmd = app.add_subcommand("play", "walk through light maps in a window (mouse, W A S D; H shows the keys)");
+  const auto dlm = std::make_shared<std::string>();
+  const auto size = std::make_shared<std::string>("1280x720");
+  const auto options = std::make_shared<PlayOptions>();
+  cmd->add_option("DLM", *dlm, "the light maps")->required();
+  cmd->add_option("--camera", options->camera, "name or number (from 0) of the camera to start at");
+  addRenderArguments(*cmd, options->render, *size);
+  cmd->add_option("--scale", options->renderScale, "drawn pixels per window pixel, each way: lower is faster")
+      ->check(CLI::Range(0.1, 1.0))
+      ->capture_default_str();
+  cmd->add_option("--frames", options->frames, "end after that many frames; 0: when the window is closed")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  cmd->add_option("--screenshot", options->screenshot, "save the last frame, overlay included, as a PNG");
+  cmd->callback([=, &action] {
+    action = [=] {
+      applySize(*size, options->render);
+      const PlayReport report = walk(*dlm, *options);
+      logInfo(std::to_string(report.frames) + " frames in " + formatDuration(report.seconds));
+    };
+  });
+}
+
+}  // namespace lucarne

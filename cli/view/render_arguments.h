@@ -1,0 +1,18 @@
+// Options that render and play share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "player/render_options.h"
+
+namespace lucarne {
+
+/// Adds --size, --renderer and --map-format. `size` is parsed by applySize() when the command runs.
+void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size);
+
+/// "1280x720" into width and height; UsageError otherwise.
+void applySize(const std::string& size, RenderOptions& options);
+
+}  // namespace lucarne
