@@ -20,6 +20,14 @@ Scene load(const BakeOptions& options) {
   return options.scene ? readGltf(*options.scene) : readGlb(builtinScene(), "the built-in scene");
 }
 
+/// Asked before the work, not after it.
+void checkOutputs(const BakeOptions& options) {
+  checkWritable(options.output);
+  if (std::filesystem::exists(options.output) && !holdsLightMaps(options.output))
+    throw Error(ExitCode::failed, "will not replace " + options.output.string() + ": it is not a folder of light maps; remove it or name another");
+  if (options.report) checkWritable(*options.report);
+}
+
 /// Maps take at most half of what the tallies do; they exist together while resolving.
 void checkMemory(const BakePlan& plan) {
   const std::uint64_t needed = plan.tallies.bytes() + plan.tallies.bytes() / 2;
@@ -42,8 +50,7 @@ void warnAbout(const PhotonScene& scene, const BakePlan& plan, const BakeOptions
 
 nlohmann::json bake(const BakeOptions& options) {
   check(options);
-  checkWritable(options.output);
-  if (options.report) checkWritable(*options.report);
+  checkOutputs(options);
   const Scene scene = load(options);
   const PhotonScene photonScene(scene, {options.isa, true});
   const BakePlan plan = makePlan(scene, options);

@@ -1,12 +1,12 @@
 #include "app/bake.h"
 
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "base/units.h"
+#include "cli/choices.h"
 #include "cli/commands.h"
 
 namespace lucarne {
@@ -30,24 +30,21 @@ void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   cmd.add_option("--directions", o.directions, "size of the direction set: more show sharper highlights, cost memory and frame time")->capture_default_str();
   cmd.add_option("--density", o.texelsPerMetre, "texels per metre: finer shadows, more noise for the same photons")->capture_default_str();
   cmd.add_option("--texels", texts.texels, "texel budget; a scene that needs more is baked at a lower density")->capture_default_str();
-  static const std::map<std::string, KernelShape> shapes{
-      {"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}};
-  cmd.add_option("--kernel", o.kernel.shape, "reconstruction kernel: pyramid, box or epanechnikov")
-      ->transform(CLI::CheckedTransformer(shapes).description(""))->type_name("NAME")->default_str("pyramid");
+  addChoice<KernelShape>(cmd, "--kernel", o.kernel.shape,
+                         {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
+                         "pyramid", "reconstruction kernel: pyramid, box or epanechnikov");
   cmd.add_option("--kernel-width", o.kernel.width, "distance in texels at which the kernel ends: wider is smoother and blurrier")->capture_default_str();
   cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();
-  static const std::map<std::string, LightPart> parts{
-      {"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}};
-  cmd.add_option("--light", o.light, "which light to store: all, direct or indirect")
-      ->transform(CLI::CheckedTransformer(parts).description(""))->type_name("NAME")->default_str("all");
+  addChoice<LightPart>(cmd, "--light", o.light,
+                       {{"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}}, "all",
+                       "which light to store: all, direct or indirect");
   cmd.add_flag("--keep-all-directions", o.keepAllDirections, "direction maps also for surfaces without a glossy lobe");
 }
 
 void addRunning(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   cmd.add_option("--threads", o.threads, "0: all; the result does not depend on it")->capture_default_str();
-  static const std::map<std::string, ChannelType> formats{{"half", ChannelType::half}, {"float", ChannelType::float32}};
-  cmd.add_option("--format", o.format.directional, "numbers of the directional maps on disk: half or float")
-      ->transform(CLI::CheckedTransformer(formats).description(""))->type_name("NAME")->default_str("half");
+  addChoice<ChannelType>(cmd, "--format", o.format.directional, {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
+                         "numbers of the directional maps on disk: half or float");
   cmd.add_option("--report", texts.report, "write what happened to a JSON file: rates, energy ledger, errors, what was left out");
   cmd.add_option("--isa", o.isa, "Embree's instruction set (avx512, avx2, sse4.2); bakes to be compared bit by bit need the same");
   cmd.add_flag("--quiet", o.quiet, "print errors only");

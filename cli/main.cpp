@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -11,6 +12,14 @@ namespace {
 int fail(lucarne::ExitCode code, const std::string& message) {
   std::fprintf(stderr, "lucarne: %s\n", message.c_str());
   return static_cast<int>(code);
+}
+
+/// CLI11 takes an unknown first word for a missing command; name it instead.
+void checkCommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-' || app.get_subcommand_no_throw(argv[1]) != nullptr) return;
+  std::string all;
+  for (const CLI::App* cmd : app.get_subcommands([](const CLI::App*) { return true; })) all += (all.empty() ? "" : ", ") + cmd->get_name();
+  throw lucarne::UsageError("no command '" + std::string(argv[1]) + "'; there are " + all);
 }
 
 int run(int argc, char** argv) {
@@ -28,6 +37,7 @@ int run(int argc, char** argv) {
   lucarne::addRender(app, action);
   lucarne::addPlay(app, action);
 #endif
+  checkCommand(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version

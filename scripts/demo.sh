@@ -15,10 +15,10 @@ mkdir -p out
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && [ -z "${LUCARNE_HEADLESS:-}" ]; then
   exec "$lucarne" play "$maps"
 fi
-for camera in camera_entrance camera_table camera_corner; do
-  "$lucarne" render "$maps" --camera "$camera" -o "out/${camera#camera_}.png"
+for camera in entrance table corner; do
+  "$lucarne" render "$maps" --camera "$camera" -o "out/$camera.png"
 done
 echo "No display: the room as seen by its cameras is in"
-for camera in camera_entrance camera_table camera_corner; do
-  echo "  $PWD/out/${camera#camera_}.png"
+for camera in entrance table corner; do
+  echo "  $PWD/out/$camera.png"
 done

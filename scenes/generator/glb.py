@@ -47,7 +47,7 @@ class GlbWriter:
     def add_camera(self, name, eye, target, yfov, aspect_ratio, znear=0.05, zfar=50.0):
         lens = {"yfov": round(yfov, 7), "aspectRatio": round(aspect_ratio, 7), "znear": znear, "zfar": zfar}
         self.json["cameras"].append({"name": name, "type": "perspective", "perspective": lens})
-        self._append_node({"name": "camera_" + name, "camera": len(self.json["cameras"]) - 1,
+        self._append_node({"name": name, "camera": len(self.json["cameras"]) - 1,
                            "translation": _numbers(eye), "rotation": _numbers(_look_at(eye, target))})
 
     def to_bytes(self):
