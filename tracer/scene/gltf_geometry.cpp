@@ -51,6 +51,8 @@ class InstanceReader {
   InstanceReader(const GltfSource& source, const WorldNode& node, const PrimitiveUse& use, const UvSlots& slots,
                  Scene& scene, std::vector<std::uint32_t>& sharedVertex);
   void read(std::uint32_t material);
+  /// Whether _CHART held something that is no chart number.
+  bool foreignCharts() const { return foreignCharts_; }
 
  private:
   struct Corner {
@@ -74,9 +76,7 @@ class InstanceReader {
   std::optional<Accessor> positions_, normals_, uv0_, uv1_, atlasUv_, charts_;
   Scene& scene_;
   std::vector<std::uint32_t>& sharedVertex_;  // by source vertex; kNone outside of read()
-
- public:
-  bool foreignCharts = false;
+  bool foreignCharts_ = false;
 };
 
 InstanceReader::InstanceReader(const GltfSource& source, const WorldNode& node, const PrimitiveUse& use,
@@ -185,7 +185,7 @@ std::uint32_t InstanceReader::chartOf(const std::array<std::uint32_t, 3>& vertic
   const double chart = charts_->value(vertices[0], 0);
   bool ours = chart >= -1 && chart <= kMaxChart && chart == std::floor(chart);
   for (const std::uint32_t v : vertices) ours = ours && charts_->value(v, 0) == chart;
-  foreignCharts |= !ours;
+  foreignCharts_ |= !ours;
   return ours && chart >= 0 ? static_cast<std::uint32_t>(chart) : kNone;
 }
 
@@ -218,7 +218,7 @@ void readGeometry(const GltfSource& source, const std::vector<WorldNode>& nodes,
     const std::size_t material = index == nullptr ? materials.materials.size() - 1 : index->get<std::size_t>();
     InstanceReader reader(source, nodes[use.worldNode], use, materials.uvSlots[material], scene, sharedVertex);
     reader.read(static_cast<std::uint32_t>(material));
-    foreignCharts |= reader.foreignCharts;
+    foreignCharts |= reader.foreignCharts();
   }
   for (std::vector<Vec2f>* uv : {&scene.uv0, &scene.uv1, &scene.atlasUv}) {
     if (!uv->empty()) uv->resize(scene.positions.size());

@@ -6,8 +6,8 @@
 
 namespace lucarne {
 
-/// Members "materials", "textures", "samplers", "images" (as PNG data URIs' places: one empty object an image, to be
-/// filled by the caller) and "extensionsUsed".
+/// Members "materials", "textures", "samplers", "images" and "extensionsUsed". Images get a name of a file as their
+/// URI; the caller provides the bytes.
 void putMaterials(const Scene& scene, Json& json);
 
 }  // namespace lucarne

@@ -121,8 +121,8 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<PrimitiveInstance> instances;
 
-  // Of a scene.glb that we wrote: the chart of each triangle (kNone for degenerate ones), else empty. uv1 is then the
-  // place in the irradiance atlas.
+  // Of a scene.glb that we wrote: the chart of each triangle (kNone for degenerate ones), else empty. atlasUv is
+  // then the place in the irradiance atlas.
   std::vector<std::uint32_t> chartOfTriangle;
 
   std::vector<std::string> leftOut;          // what the file has and we do not model, each once
