@@ -59,7 +59,7 @@ class PlaneTriangleSet {
   Slot& slotAt(std::int32_t x, std::int32_t y, std::int32_t level);
   void insert(const PlaneTriangle& triangle, const Bounds& bounds);
   void growTable();
-  bool tired() const { return work_ > 256 * (entries_.size() + 256); }
+  bool tired() const { return work_ > 256 * (entries_.size() + 4096); }
 
   double tolerance_, finestCell_;
   std::uint32_t epoch_ = 1;

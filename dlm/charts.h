@@ -1,9 +1,11 @@
 // Charts: connected sets of triangles of one material, one-to-one in their own texture rectangle.
 //
 // Charts grow across the edges of one material while (a) every triangle's normal stays within an angle of the chart's
-// seed normal and (b) the orthogonal projection onto the chart's plane stays one-to-one. Adjacency is by position, not
+// normal and (b) the orthogonal projection onto the chart's plane stays one-to-one. Adjacency is by position, not
 // by index: vertices are welded within a tolerance relative to the scene, and edges with more than two faces, or with
-// two faces that wind the same way, do not connect (OpenMesh half-edges). Zero-area triangles belong to no chart.
+// two faces that wind the same way, do not connect (OpenMesh half-edges); triangles that lie on one another count as
+// layers, each connected by itself. Smooth triangles do not join where their vertex normals differ, flat ones not where
+// they meet at more than the crease angle. Zero-area triangles belong to no chart.
 #pragma once
 
 #include <array>
@@ -15,7 +17,7 @@
 namespace lucarne {
 
 struct ChartOptions {
-  double maxAngleDegrees = 40;     // largest angle between a triangle's normal and the seed normal
+  double maxAngleDegrees = 40;     // largest angle between a triangle's normal and the chart's, at most 80
   double weldTolerance = 1e-6;     // relative to the scene's extent (about one local unit)
   double creaseAngleDegrees = 20;  // flat-shaded triangles that meet at more than this are not joined
 };

@@ -93,7 +93,7 @@ TexelLayout layOutTexels(const Scene& scene, const ChartSet& set, const LayoutOp
                                              std::to_string(options.texelBudget) + " texels: raise the budget");
   }
   TexelLayout layout;
-  const double wanted = options.texelsPerMetre * scene.frame.scale;
+  const double wanted = std::min(options.texelsPerMetre * scene.frame.scale, 1e30);  // infinity cannot be halved
   const double used = fittingDensity(set, wanted, static_cast<double>(options.texelBudget));
   layout.thinned = used < wanted;
   layout.texelsPerMetre = layout.thinned ? used / scene.frame.scale : options.texelsPerMetre;

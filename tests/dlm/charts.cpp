@@ -260,6 +260,32 @@ TEST(Charts, WeldAcrossRoundingButKeepMeshesFinerThanTheTolerance) {
   const ChartSet set = growCharts(scene);
   expectPartition(scene, set);
   EXPECT_EQ(std::count(set.chartOfTriangle.begin(), set.chartOfTriangle.end(), kNone), 0);
+  std::size_t largest = 0;
+  for (const Chart& chart : set.charts) largest = std::max(largest, chart.triangles.size());
+  EXPECT_GE(largest, 700u);  // of 800: its border may suffer
+}
+
+TEST(Charts, OfTriangleSoupKeepEveryInvariant) {
+  std::mt19937 random(17);
+  for (const int grid : {2, 3, 5}) {
+    std::uniform_int_distribution<int> place(0, grid);
+    for (int trial = 0; trial < 30; ++trial) {
+      SceneBuilder builder;
+      const auto point = [&] { return Vec3d{double(place(random)), 0.2 * place(random), double(place(random))}; };
+      for (int i = 0; i < 300; ++i) builder.addTriangle(point(), point(), point());
+      growChecked(builder.build());
+    }
+  }
+}
+
+TEST(Charts, OfAFanOfManySliversAreFew) {
+  SceneBuilder builder;
+  const int n = 20000;
+  const auto rim = [&](int i) { return Vec3d{std::cos(2 * kPi * (i % n) / n), std::sin(2 * kPi * (i % n) / n), 0}; };
+  for (int i = 0; i < n; ++i) builder.addTriangle({0, 0, 0}, rim(i), rim(i + 1));
+  const Scene scene = builder.build();
+  const ChartSet set = growCharts(scene);
+  expectPartition(scene, set);
   EXPECT_LE(set.charts.size(), 100u);
 }
 

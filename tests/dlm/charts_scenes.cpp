@@ -47,12 +47,13 @@ TEST_P(ChartsOfScenes, AreFewAndKeepEveryInvariant) {
   EXPECT_LE(std::max(packing.pageWidth, packing.pageHeight), PackOptions{}.maxPageSize);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Real, ChartsOfScenes,
-    testing::Values(RealScene{"scenes/country_kitchen.glb", 20, 0.7}, RealScene{"scenes/lux_kitchen.glb", 7, 0.9},
-                    RealScene{"scenes/hotel_room.glb", 20, 0.65}, RealScene{"models/sheen_chair.glb", 40, 0.4},
-                    RealScene{"models/bunny.glb", 40, 0.5}),
-    [](const auto& info) { return std::filesystem::path(info.param.path).stem().string(); });
+INSTANTIATE_TEST_SUITE_P(Real, ChartsOfScenes,
+                         testing::Values(RealScene{"scenes/country_kitchen.glb", 20, 0.7},
+                                         RealScene{"scenes/lux_kitchen.glb", 7, 0.9},
+                                         RealScene{"scenes/hotel_room.glb", 20, 0.65},
+                                         RealScene{"models/sheen_chair.glb", 40, 0.4},
+                                         RealScene{"models/bunny.glb", 40, 0.5}),
+                         [](const auto& scene) { return std::filesystem::path(scene.param.path).stem().string(); });
 
 }  // namespace
 }  // namespace lucarne::test

@@ -1,5 +1,6 @@
 #include "dlm/texel_layout.h"
 
+#include <limits>
 #include <numeric>
 
 #include "base/error.h"
@@ -115,6 +116,17 @@ TEST(TexelLayout, NoChartIsWiderThanAPageCanBe) {
   EXPECT_TRUE(layout.thinned);
   EXPECT_LE(layout.charts[0].width, 16000);
   EXPECT_GE(layout.charts[0].width, 15900);
+}
+
+TEST(TexelLayout, AnyDensityIsThinned) {
+  SceneBuilder builder;
+  builder.addBox({0, 0, 0}, {3, 2, 1});
+  const Scene scene = builder.build();
+  for (const double density : {1e-300, 1e12, 1e300, std::numeric_limits<double>::infinity()}) {
+    const TexelLayout layout = layOutTexels(scene, growCharts(scene), {density, 10'000});
+    EXPECT_EQ(layout.thinned, density > 1);
+    EXPECT_LE(layout.texelCount, 10'000u);
+  }
 }
 
 TEST(TexelLayout, OfASceneWithoutChartsIsEmpty) {
