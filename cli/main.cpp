@@ -16,9 +16,12 @@ int fail(lucarne::ExitCode code, const std::string& message) {
 
 /// CLI11 takes an unknown first word for a missing command; name it instead.
 void checkCommand(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-' || app.get_subcommand_no_throw(argv[1]) != nullptr) return;
+  if (argc < 2 || argv[1][0] == '-') return;
   std::string all;
-  for (const CLI::App* cmd : app.get_subcommands([](const CLI::App*) { return true; })) all += (all.empty() ? "" : ", ") + cmd->get_name();
+  for (const CLI::App* cmd : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (cmd->get_name() == argv[1]) return;
+    all += (all.empty() ? "" : ", ") + cmd->get_name();
+  }
   throw lucarne::UsageError("no command '" + std::string(argv[1]) + "'; there are " + all);
 }
 

@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config
-  libembree-dev libtbb-dev libopenmesh-dev libtinygltf-dev libopenexr-dev libstb-dev
+  libembree-dev libtbb-dev libopenmesh-dev libopenexr-dev libstb-dev
   libcli11-dev libspdlog-dev nlohmann-json3-dev libxxhash-dev
   libglfw3-dev libglm-dev libepoxy-dev libimgui-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
   libgtest-dev libgmock-dev libbenchmark-dev
