@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi, kInsideFov = 1.0, kOutsideFov = 0.8;
 constexpr double kEyeHeightMetres = 1.6;
+constexpr double kEnclosed = 0.7;     // share of all directions: a room may lack a wall or its roof
+constexpr double kRoomy = 0.45;       // Score::filled of a view inside a room, more than inside a lampshade
+constexpr double kSurrounded = 0.55;  // and inside an open place, a courtyard or a garden
 
 std::string listOf(const Scene& scene) {
   if (scene.cameras.empty()) return "the scene has none";
@@ -44,33 +47,43 @@ class Scout {
 
   struct Sight {
     double worth = 0;  // up to 1 for a front some way off, 0 for nothing, −1 for a back that should not be seen
-    std::uint32_t material = kNone;
+    std::uint32_t triangle = kNone;
   };
   Sight sight(Vec3d eye, Vec3d direction) const {
     std::uint64_t repeats = 0;
     const std::optional<Hit> hit = caster_.nearest(Vec3f(eye), Vec3f(direction), kNone, repeats);
     if (!hit) return {};
     const std::uint32_t material = scene_.triangles[hit->triangle].material;
-    if (hit->back && !scene_.materials[material].doubleSided) return {-1, material};
-    return {std::min(length(hit->position - eye) / (0.5 * size()), 1.0), material};
+    if (hit->back && !scene_.materials[material].doubleSided) return {-1, hit->triangle};
+    const double distance = length(hit->position - eye);
+    return {distance / (distance + 0.1 * size()), hit->triangle};
   }
 
-  /// Mean worth over the picture of a camera, 4:3, and up to as much again for many different materials in it.
-  double score(const Camera& camera) const {
+  struct Score {
+    double filled = -2;  // mean worth over the picture
+    double variety = 0;  // half of it for many materials, half for many triangles
+    double total() const { return filled + variety; }
+  };
+  /// Of a picture of 4:3.
+  Score score(const Camera& camera) const {
     constexpr int kColumns = 12, kRows = 9;
     const double y = std::tan(camera.yfov / 2), x = y * kColumns / kRows;
     double sum = 0;
-    std::set<std::uint32_t> materials;
+    std::set<std::uint32_t> materials, triangles;
     for (int row = 0; row < kRows; ++row) {
       for (int column = 0; column < kColumns; ++column) {
         const double u = (2 * (column + 0.5) / kColumns - 1) * x, v = (2 * (row + 0.5) / kRows - 1) * y;
         const Sight s = sight(camera.position, normalize(camera.right * u + camera.up * v - camera.back));
         sum += s.worth;
-        if (s.worth > 0) materials.insert(s.material);
+        if (s.worth <= 0) continue;
+        triangles.insert(s.triangle);
+        materials.insert(scene_.triangles[s.triangle].material);
       }
     }
-    const auto known = static_cast<double>(std::min<std::size_t>(scene_.materials.size(), 16));
-    return sum / (kColumns * kRows) + static_cast<double>(materials.size()) / std::max(known, 1.);
+    constexpr double kRays = kColumns * kRows;
+    const auto known = static_cast<double>(std::clamp<std::size_t>(scene_.materials.size(), 1, 16));
+    const auto seen = static_cast<double>(materials.size()), pieces = static_cast<double>(triangles.size());
+    return {sum / kRays, 0.5 * std::min(seen / known, 1.0) + 0.5 * pieces / kRays};
   }
 
   /// Share of all directions in which a front is met.
@@ -90,23 +103,43 @@ class Scout {
   Box box_;
 };
 
-/// A grid of standing places inside the box.
-std::vector<Vec3d> standingPlaces(const Scene& scene, const Box& box) {
+/// The box that holds nine tenths of the corners along each axis: where the things are in a scene with a huge ground or
+/// sky.
+Box denseBox(const Scene& scene) {
+  Box box;
+  Vec3d lo, hi;
+  std::vector<float> values;
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear();
+    for (const Triangle& t : scene.triangles) {
+      for (const std::uint32_t v : t.v) values.push_back(scene.positions[v][axis]);
+    }
+    std::sort(values.begin(), values.end());
+    lo[axis] = static_cast<double>(values[values.size() / 20]);
+    hi[axis] = static_cast<double>(values[values.size() - 1 - values.size() / 20]);
+  }
+  box.add(lo);
+  box.add(hi);
+  return box;
+}
+
+/// A grid of standing places inside a box.
+void addStandingPlaces(const Scene& scene, const Box& box, std::vector<Vec3d>& places) {
   const Vec3d e = box.extent();
-  const double eye = box.lo.y + std::min(kEyeHeightMetres / scene.frame.scale, 0.55 * e.y);
-  std::vector<Vec3d> places;
+  const double eye = box.lo.y + std::clamp(kEyeHeightMetres / scene.frame.scale, 0.2 * e.y, 0.55 * e.y);
   for (const double x : {0.5, 0.3, 0.7, 0.08, 0.92}) {
     for (const double z : {0.5, 0.3, 0.7, 0.08, 0.92}) places.push_back({box.lo.x + x * e.x, eye, box.lo.z + z * e.z});
   }
-  return places;
 }
 
 struct Best {
   Camera camera;
-  double score = -2;
-  void consider(const Scout& scout, const Camera& candidate) {
-    const double s = scout.score(candidate);
-    if (s > score + 1e-9) *this = {candidate, s};
+  Scout::Score score;
+  /// `malus`: how much better an unusual view has to be.
+  void consider(const Scout& scout, const Camera& candidate, double malus = 0) {
+    Scout::Score s = scout.score(candidate);
+    s.variety -= malus;
+    if (s.total() > score.total() + 1e-9) *this = {candidate, s};
   }
 };
 
@@ -129,7 +162,7 @@ Best bestOutside(const Scout& scout) {
     for (int i = 0; i < 12; ++i) {
       const double yaw = kPi * (i / 6.0 + 0.3), level = std::cos(elevation) * distance;
       const Vec3d eye = center + Vec3d{std::cos(yaw) * level, std::sin(elevation) * distance, std::sin(yaw) * level};
-      best.consider(scout, lookAt(eye, center, kOutsideFov));
+      best.consider(scout, lookAt(eye, center, kOutsideFov), 0.3 * std::abs(elevation - 0.35));
     }
   }
   return best;
@@ -152,14 +185,16 @@ Camera lookAt(Vec3d eye, Vec3d target, double yfov) {
 Camera automaticCamera(const Scene& scene) {
   if (scene.triangles.empty()) return lookAt({0, 0, 2}, {0, 0, 0}, kOutsideFov);
   const Scout scout(scene);
-  const std::vector<Vec3d> places = standingPlaces(scene, scout.box());
+  std::vector<Vec3d> places;
+  addStandingPlaces(scene, scout.box(), places);
+  addStandingPlaces(scene, denseBox(scene), places);
   std::vector<Vec3d> enclosed;
   for (const Vec3d& eye : places) {
-    if (scout.enclosure(eye) >= 0.7) enclosed.push_back(eye);  // a room may lack a wall or its roof
+    if (scout.enclosure(eye) >= kEnclosed) enclosed.push_back(eye);
   }
-  if (!enclosed.empty()) return bestInside(scout, enclosed).camera;
-  const Best inside = bestInside(scout, places), outside = bestOutside(scout);
-  return inside.score > outside.score ? inside.camera : outside.camera;
+  const Best inside = bestInside(scout, enclosed.empty() ? places : enclosed);
+  const double enough = enclosed.empty() ? kSurrounded : kRoomy;
+  return inside.score.filled > enough ? inside.camera : bestOutside(scout).camera;
 }
 
 Camera chooseCamera(const Scene& scene, const std::string& nameOrIndex) {

@@ -79,6 +79,26 @@ TEST(CameraChoice, ALoneObjectIsSeenFromOutsideAndWhole) {
   }
 }
 
+TEST(CameraChoice, ALampWithABaseAndAShadeIsSeenFromOutside) {
+  test::SceneBuilder b;
+  b.addBox({-0.3, 0, -0.3}, {0.3, 0.1, 0.3}, b.addDiffuse({0.2f, 0.2f, 0.2f}));
+  b.addBox({-0.02, 0.1, -0.02}, {0.02, 1, 0.02}, b.addDiffuse({0.5f, 0.4f, 0.2f}));
+  b.addBox({-0.4, 1, -0.4}, {0.4, 1.5, 0.4}, b.addDiffuse({0.9f, 0.9f, 0.8f}, Rgb(100.f)));
+  const Scene scene = b.build();
+  const Vec3d eye = scene.frame.toWorld(automaticCamera(scene).position);
+  EXPECT_FALSE(inside(eye, {-0.4, 0, -0.4}, {0.4, 1.5, 0.4}));
+  EXPECT_GT(length(eye - Vec3d{0, 0.75, 0}), 1.5);
+}
+
+TEST(CameraChoice, ACourtyardWithoutRoofIsSeenFromInside) {
+  test::SceneBuilder b;
+  b.addBox({-10, 0, -6}, {10, 5, 6}, 0, true);
+  Scene scene = b.build();
+  scene.triangles.erase(scene.triangles.begin() + 6, scene.triangles.begin() + 8);  // +y
+  const Vec3d eye = scene.frame.toWorld(automaticCamera(scene).position);
+  EXPECT_TRUE(inside(eye, {-10, 0, -6}, {10, 5, 6}));
+}
+
 TEST(CameraChoice, AOneSidedPlateIsSeenFromItsFront) {
   test::SceneBuilder b;
   b.addQuad({-1, 0, 1}, {-1, 0, -1}, {1, 0, -1}, {1, 0, 1});  // the front looks down
