@@ -10,7 +10,8 @@ cmake --build --preset release --parallel "$(nproc)" --target lucarne
 lucarne=build/release/cli/lucarne
 maps=out/glossy_room.dlm
 mkdir -p out
-"$lucarne" bake -o "$maps"
+# Finer and cleaner than the defaults: about a minute on two cores.
+"$lucarne" bake -o "$maps" --density 24 --photons 40M
 
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && [ -z "${LUCARNE_HEADLESS:-}" ]; then
   exec "$lucarne" play "$maps"
