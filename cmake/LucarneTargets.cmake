@@ -35,15 +35,18 @@ function(lucarne_library name)
           FILES_MATCHING PATTERN "*.h")
 endfunction()
 
-# lucarne_test(NAME LIBS…): one GoogleTest program of every .cpp in tests/NAME, its cases known to CTest one by one.
+# lucarne_test(NAME LIBS… [ENVIRONMENT VAR=VALUE]): one GoogleTest program of every .cpp in tests/NAME, its cases known to
+# CTest one by one.
 function(lucarne_test name)
+  cmake_parse_arguments(arg "" "ENVIRONMENT" "" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
   if(NOT sources)
     return()
   endif()
   add_executable(test_${name} ${sources})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_link_libraries(test_${name} PRIVATE lucarne_flags ${ARGN} GTest::gmock GTest::gtest_main)
+  target_link_libraries(test_${name} PRIVATE lucarne_flags ${arg_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE LUCARNE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 120
+                       PROPERTIES TIMEOUT 900 ENVIRONMENT "${arg_ENVIRONMENT}")
 endfunction()

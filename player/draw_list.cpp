@@ -11,7 +11,7 @@ namespace lucarne {
 namespace {
 
 void checkCharts(const Scene& scene, const LightMaps& maps) {
-  if (scene.chartOfTriangle.size() != scene.triangles.size() || scene.uv1.size() != scene.positions.size()) {
+  if (scene.chartOfTriangle.size() != scene.triangles.size() || scene.atlasUv.size() != scene.positions.size()) {
     throw InputError("the scene does not name the chart of each triangle; bake it again");
   }
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -37,8 +37,8 @@ GpuVertex corner(const Scene& scene, const LightMaps& maps, std::uint32_t triang
   const Vec3f p = scene.positions[i];
   const bool smooth = triangle < scene.smooth.size() && scene.smooth[triangle] != 0;
   const Vec3f n = smooth ? scene.normals[i] : Vec3f(normalize(scene.scaledNormal(triangle)));
-  const Vec2f uv0 = scene.uv0.empty() ? Vec2f{} : scene.uv0[i], uv1 = scene.uv1[i];
-  const Vec2f c = chartUv(maps, chart, uv1);
+  const Vec2f uv0 = scene.uv0.empty() ? Vec2f{} : scene.uv0[i], uv1 = scene.uv1.empty() ? Vec2f{} : scene.uv1[i];
+  const Vec2f c = chartUv(maps, chart, scene.atlasUv[i]);
   return {{p.x, p.y, p.z}, {n.x, n.y, n.z},           {uv0.x, uv0.y},          {uv1.x, uv1.y},
           {c.x, c.y},      recordOf(chart.frontSide), recordOf(chart.backSide)};
 }

@@ -272,6 +272,22 @@ TEST_F(Renderers, TexturesKeepTheirMipmapLevelUpToTheEdgesOfTriangles) {
   }
 }
 
+TEST_F(Renderers, MaterialsReadTheirOwnTextureCoordinatesNotThoseOfTheAtlas) {
+  Material m = test::diffuseMaterial(Rgb(1.f));
+  m.baseColorTexture.texture = 0;
+  m.baseColorTexture.uvSet = 1;
+  BakedScene baked = plate(14, m, test::constantRadiance(Rgb(1.f)), {0.5, 0.3, 2}, {true, false, 0});
+  Image image{2, 1, {0, 0, 0, 255, 255, 255, 255, 255}};  // black, white
+  baked.scene.images.push_back(image);
+  Texture texture;
+  texture.image = 0;
+  texture.nearest = true;
+  baked.scene.textures.push_back(texture);
+  baked.scene.uv0.assign(baked.scene.positions.size(), Vec2f{0.25f, 0.5f});
+  baked.scene.uv1.assign(baked.scene.positions.size(), Vec2f{0.75f, 0.5f});
+  EXPECT_NEAR(centre(render(baked, RendererKind::singlepass, LightMapFormat::float32, 33, 17)).x, 1.f, 1e-4f);
+}
+
 TEST_F(Renderers, RowsGoFromTheTopAndColumnsFromTheLeft) {
   const auto light = [](Vec3d p, Vec3d) { return Rgb{static_cast<float>(p.x + 1), static_cast<float>(p.y + 1), 1.f}; };
   const BakedScene baked = plate(14, test::diffuseMaterial(Rgb(1.f)), light, {0, 0, 8}, {true, false, 0});

@@ -128,8 +128,8 @@ BakedScene BakedSceneBuilder::build() {
   scene.chartOfTriangle = chartOfTriangle_;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const MapChart& chart = maps.charts[corners_[i].chart];
-    scene.uv1.push_back({static_cast<float>((chart.atlasX + corners_[i].st.x) / maps.atlasWidth),
-                         static_cast<float>((chart.atlasY + corners_[i].st.y) / maps.atlasHeight)});
+    scene.atlasUv.push_back({static_cast<float>((chart.atlasX + corners_[i].st.x) / maps.atlasWidth),
+                             static_cast<float>((chart.atlasY + corners_[i].st.y) / maps.atlasHeight)});
     if (corners_[i].normal) scene.normals[i] = Vec3f(*corners_[i].normal);
   }
   for (std::size_t t = 0; t < scene.triangles.size(); ++t)
