@@ -4,6 +4,8 @@
 #include <imgui/backends/imgui_impl_opengl3.h>
 #include <imgui/imgui.h>
 
+#include "base/units.h"
+
 namespace lucarne {
 namespace {
 
@@ -25,7 +27,7 @@ void drawNumbers(const OverlayText& t) {
   ImGui::Separator();
   ImGui::Text("texture memory %.1f MB (light maps %.1f MB)", 1e-6 * static_cast<double>(t.stats.textureBytes),
               1e-6 * static_cast<double>(t.stats.lightMapBytes));
-  if (t.photons > 0) ImGui::Text("photons        %.3g", t.photons);
+  if (t.photons > 0) ImGui::Text("photons        %s", formatCount(static_cast<std::uint64_t>(t.photons)).c_str());
   ImGui::Text("exposure       %+.1f stops", t.exposureStops);
 }
 
