@@ -13,9 +13,9 @@ constexpr int kQuadrature = 48;
 
 /// ρ(w) = ∫ f·cos dwo = E[F·G2/G1] over visible normals (pdf cancels D, the Jacobian and G1; see ggx.h).
 ///
-/// Midpoint rule over the sampler's unit square. The far tail of the lobe lies at u ≈ 1, so u = 1 − (1−t)², du = 2(1−t) dt,
-/// spends points there; the lobe is symmetric about the plane of w and n, so half the azimuths do. Within 5e-4 everywhere,
-/// 1e-4 for α > 0.1 (against a million points).
+/// Midpoint rule over the sampler's unit square. The far tail of the lobe lies at u ≈ 1, so u = 1 − (1−t)², du = 2(1−t)
+/// dt, spends points there; the lobe is symmetric about the plane of w and n, so half the azimuths do. Within 5e-4
+/// everywhere, 1e-4 for α > 0.1 (against a million points).
 Vec2f integrate(float cosTheta, float alpha) {
   const float c = std::max(cosTheta, 1e-3f);
   const Vec3f w{std::sqrt(1.f - c * c), 0, c};
@@ -23,7 +23,8 @@ Vec2f integrate(float cosTheta, float alpha) {
   for (int i = 0; i < kQuadrature; ++i) {
     const float rest = 1 - (static_cast<float>(i) + 0.5f) / kQuadrature;
     for (int j = 0; j < kQuadrature; ++j) {
-      const float quarterTurns = (static_cast<float>(j) + 0.5f) / kQuadrature - 0.5f;  // azimuth −¼ … ¼ turn, brought to [0, 1)
+      const float quarterTurns =
+          (static_cast<float>(j) + 0.5f) / kQuadrature - 0.5f;  // azimuth −¼ … ¼ turn, brought to [0, 1)
       const float turns = 0.5f * quarterTurns + (quarterTurns < 0 ? 1.f : 0.f);
       const Vec3f h = sampleVisibleNormal(w, alpha, {1 - rest * rest, turns});
       const Vec3f wo = reflect(w, h);
@@ -36,16 +37,6 @@ Vec2f integrate(float cosTheta, float alpha) {
   }
   constexpr double n = kQuadrature * kQuadrature;
   return {static_cast<float>(x / n), static_cast<float>(y / n)};
-}
-
-struct Cell {
-  int i;
-  float f;
-};
-Cell locate(float unit, int nodes) {
-  const float x = std::clamp(unit, 0.f, 1.f) * static_cast<float>(nodes - 1);
-  const int i = std::min(static_cast<int>(x), nodes - 2);
-  return {i, x - static_cast<float>(i)};
 }
 
 }  // namespace
@@ -65,20 +56,6 @@ SpecularTable::SpecularTable() : directional_(kCosines * kRoughnesses), mean_(kR
     }
     mean_[static_cast<std::size_t>(j)] = {static_cast<float>(sum.x), static_cast<float>(sum.y)};
   });
-}
-
-Vec2f SpecularTable::scaleBias(float cosTheta, float alpha) const {
-  const Cell c = locate(cosTheta, kCosines), r = locate(std::sqrt(alpha), kRoughnesses);
-  const Vec2f* row = directional_.data() + r.i * kCosines + c.i;
-  const Vec2f a = row[0] * (1 - c.f) + row[1] * c.f;
-  const Vec2f b = row[kCosines] * (1 - c.f) + row[kCosines + 1] * c.f;
-  return a * (1 - r.f) + b * r.f;
-}
-
-Vec2f SpecularTable::meanScaleBias(float alpha) const {
-  const Cell r = locate(std::sqrt(alpha), kRoughnesses);
-  const Vec2f* row = mean_.data() + r.i;
-  return row[0] * (1 - r.f) + row[1] * r.f;
 }
 
 const SpecularTable& SpecularTable::instance() {

@@ -42,8 +42,10 @@ Vec2f SurfaceTable::uv(const TextureUse& use, std::uint32_t triangle, Vec2f b) c
 
 Bsdf SurfaceTable::textured(std::uint32_t material, std::uint32_t triangle, Vec2f b) const {
   const Material& m = scene_->materials[material];
-  const Rgb base = m.baseColor * lookUp(*scene_, m.baseColorTexture, uv(m.baseColorTexture, triangle, b), Encoding::srgb);
-  const Rgb mr = lookUp(*scene_, m.metallicRoughnessTexture, uv(m.metallicRoughnessTexture, triangle, b), Encoding::linear);
+  const Rgb base =
+      m.baseColor * lookUp(*scene_, m.baseColorTexture, uv(m.baseColorTexture, triangle, b), Encoding::srgb);
+  const Rgb mr =
+      lookUp(*scene_, m.metallicRoughnessTexture, uv(m.metallicRoughnessTexture, triangle, b), Encoding::linear);
   return makeBsdf(m, base, m.metallic * mr.z, m.roughness * mr.y);
 }
 

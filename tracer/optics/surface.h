@@ -18,15 +18,22 @@ class SurfaceTable {
 
   /// BSDF of a material at barycentrics (b1, b2) of a triangle.
   Bsdf bsdf(std::uint32_t material, std::uint32_t triangle, Vec2f b) const {
+    Bsdf scratch;
+    return bsdf(material, triangle, b, scratch);
+  }
+  /// The same without a copy: `scratch` holds the answer where textures make it.
+  const Bsdf& bsdf(std::uint32_t material, std::uint32_t triangle, Vec2f b, Bsdf& scratch) const {
     const Entry& entry = entries_[material];
-    return entry.textured ? textured(material, triangle, b) : entry.constant;
+    if (!entry.textured) return entry.constant;
+    scratch = textured(material, triangle, b);
+    return scratch;
   }
   bool doubleSided(std::uint32_t material) const { return entries_[material].doubleSided; }
   /// Emitted radiance in cd/m² at barycentrics of a triangle, on each side that emits.
   Rgb emission(std::uint32_t triangle, Vec2f b) const;
 
  private:
-  struct Entry {
+  struct alignas(64) Entry {  // one cache line a material
     Bsdf constant;
     bool textured = false;
     bool doubleSided = false;

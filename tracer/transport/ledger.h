@@ -1,8 +1,8 @@
 // The energy ledger: integers, so that its balance is exact and does not depend on the order of summing.
 //
-// Every photon's beta is followed in fixed point; each step books the difference of what came in and what goes on, so the
-// terms telescope: emitted = absorbed + escaped + cut_off + roulette + shading_normal, per channel, to the last unit. `roulette` has
-// mean zero. `incident` is another thing: it counts every bounce.
+// Every photon's beta is followed in fixed point; each step books the difference of what came in and what goes on, so
+// the terms telescope: emitted = absorbed + escaped + cut_off + roulette + shading_normal, per channel, to the last
+// unit. `roulette` has mean zero. `incident` is another thing: it counts every bounce.
 #pragma once
 
 #include <array>
@@ -29,14 +29,13 @@ struct FluxSum {
   friend bool operator==(const FluxSum&, const FluxSum&) = default;
 };
 
-/// beta in fixed point, to nearest. One rule for every booking, or the terms would not telescope.
+/// beta in fixed point, to nearest. One rule for every booking, or the terms would not telescope. Scaling a float by a
+/// power of two is exact, so the one rounding is that of llrint (an instruction, always to nearest).
 struct FixedRgb {
   std::array<std::int64_t, 3> units{};
   FixedRgb() = default;
   explicit FixedRgb(Rgb beta) : units{toUnits(beta.x), toUnits(beta.y), toUnits(beta.z)} {}
-  static std::int64_t toUnits(float v) {
-    return static_cast<std::int64_t>(static_cast<double>(v) * static_cast<double>(kFixedPointOne) + 0.5);
-  }
+  static std::int64_t toUnits(float v) { return std::llrint(v * kFixedPointOne); }
   FixedRgb& operator+=(const FixedRgb& b) {
     for (std::size_t c = 0; c < 3; ++c) units[c] += b.units[c];
     return *this;

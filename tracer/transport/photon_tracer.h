@@ -22,9 +22,9 @@ struct PhotonHit {
   std::uint32_t event;  // 1 is the first hit: direct light
   // The numbers of this event. Scattering uses the top 24 bits of each; the low 8 are free for rounding.
   const std::array<std::uint32_t, 4>& words;
-  Rgb beta;             // incident flux as a fraction of the emitted flux
-  Vec3f wi;             // unit, away from the surface toward where the light came from
-  Vec3f n, ns;          // geometric and shading normal of the side hit
+  Rgb beta;     // incident flux as a fraction of the emitted flux
+  Vec3f wi;     // unit, away from the surface toward where the light came from
+  Vec3f n, ns;  // geometric and shading normal of the side hit
 };
 
 struct TraceLimits {
@@ -36,20 +36,22 @@ struct TraceLimits {
 inline constexpr float kLargestShadingCorrection = 4;
 
 /// |ns·wi| / |n·wi|: what the interpolated surface receives of light that falls on the flat one.
-inline float shadingReception(Vec3f wi, Vec3f n, Vec3f ns) { return std::abs(dot(ns, wi)) / std::max(std::abs(dot(n, wi)), 1e-6f); }
+inline float shadingReception(Vec3f wi, Vec3f n, Vec3f ns) {
+  return std::abs(dot(ns, wi)) / std::max(std::abs(dot(n, wi)), 1e-6f);
+}
 
 namespace detail {
 
 /// What one photon adds to the ledger; 64 bits hold any single path.
 struct PathLedger {
-  FixedRgb absorbed, expectedAbsorbed, roulette, shadingNormal;
+  FixedRgb absorbed, roulette, shadingNormal;
+  FixedRgb error;  // absorbed − expected absorbed: zero at diffuse surfaces
 
   void addTo(Ledger& ledger) const {
     ledger.absorbed += absorbed;
-    ledger.expectedAbsorbed += expectedAbsorbed;
+    ledger.expectedAbsorbed += absorbed - error;
     ledger.roulette += roulette;
     ledger.shadingNormal += shadingNormal;
-    const FixedRgb error = absorbed - expectedAbsorbed;
     const Int128 sum = Int128{error.units[0]} + error.units[1] + error.units[2];
     ledger.absorptionErrorSquares += sum * sum;
   }
@@ -58,7 +60,8 @@ struct PathLedger {
 template <class Sink>
 class PhotonPath {
  public:
-  PhotonPath(const PhotonScene& scene, const PhotonSampler& sampler, const TraceLimits& limits, Sink& sink, Ledger& ledger)
+  PhotonPath(const PhotonScene& scene, const PhotonSampler& sampler, const TraceLimits& limits, Sink& sink,
+             Ledger& ledger)
       : scene_(scene), sampler_(sampler), limits_(limits), sink_(sink), ledger_(ledger) {}
 
   void trace() {
@@ -79,8 +82,8 @@ class PhotonPath {
   void emit() {
     const auto pick = sampler_.words(0, Stream::emitter);
     const auto u = sampler_.floats(0, Stream::emission);
-    const EmittedPhoton photon = scene_.emitters().sample(
-        {toUnitDouble(pick[0], pick[1]), toUnitFloat(pick[2]), {u[0], u[1]}, {u[2], u[3]}});
+    const EmittedPhoton photon =
+        scene_.emitters().sample({toUnitDouble(pick[0], pick[1]), toUnitFloat(pick[2]), {u[0], u[1]}, {u[2], u[3]}});
     setBeta(sane(photon.beta));
     ledger_.emitted += fixed_;
     reference_ = maxComponent(beta_);
@@ -92,53 +95,68 @@ class PhotonPath {
   /// One segment and what happens at its end. False when the path is over.
   bool step(std::uint32_t event) {
     ++ledger_.rays;
-    const auto hit = scene_.rayCaster().nearest(origin_, direction_, from_, ledger_.repeatedRays);
-    if (!hit) {
+    const std::uint32_t triangle = scene_.rayCaster().nearest(origin_, direction_, from_, ledger_.repeatedRays);
+    if (triangle == kNone) {
       ledger_.escaped += fixed_;
       return false;
     }
     ++ledger_.hits;
-    if (hit->back && !scene_.surfaces().doubleSided(hit->material)) {  // an opaque, black back
+    const Hit hit = scene_.rayCaster().intersect(triangle, origin_, direction_);
+    if (hit.back && !scene_.surfaces().doubleSided(hit.material)) {  // an opaque, black back
       path_.absorbed += fixed_;
-      path_.expectedAbsorbed += fixed_;
       return false;
     }
-    const Vec3f wi = -direction_, n = hit->back ? -hit->n : hit->n;
-    const Vec3f ns = scene_.shadingNormal(*hit, n, wi);
+    const Vec3f wi = -direction_, n = hit.back ? -hit.n : hit.n;
+    const Vec3f ns = scene_.shadingNormal(hit, n, wi);
     const auto words = sampler_.words(event, Stream::scatter);
-    sink_.hit(PhotonHit{*hit, event, words, beta_, wi, n, ns});
-    return scatter(*hit, words, wi, n, ns);
-  }
-
-  bool scatter(const Hit& hit, const std::array<std::uint32_t, 4>& words, Vec3f wi, Vec3f n, Vec3f ns) {
-    const Bsdf bsdf = scene_.surfaces().bsdf(hit.material, hit.triangle, hit.b);
-    const Frame<float> frame(ns);
-    const Vec3f wiLocal = frame.toLocal(wi);
-    const auto sampled = sample(bsdf, wiLocal, {toUnitFloat(words[0]), toUnitFloat(words[1]), toUnitFloat(words[2])});
-    const Rgb onward = sampled ? sane(beta_ * sampled->weight) : Rgb{};
-    const FixedRgb fixedOnward(onward);
-    const FixedRgb absorbed = fixed_ - fixedOnward;
-    path_.absorbed += absorbed;
-    path_.expectedAbsorbed += bsdf.lambert() && sampled ? absorbed : fixed_ - FixedRgb(sane(beta_ * albedo(bsdf, wiLocal)));
-    if (!sampled) return false;
-    const Vec3f wo = frame.toWorld(sampled->wo);
-    if (!goOn(onward, fixedOnward, toUnitFloat(words[3]), wi, wo, n, ns)) return false;
-    from_ = hit.triangle;
+    sink_.hit(PhotonHit{hit, event, words, beta_, wi, n, ns});
+    if (!scatter(hit, words, wi, n, ns)) return false;
+    from_ = triangle;
     origin_ = RayCaster::leave(hit.position, n);
-    direction_ = normalize(wo);
     return true;
   }
 
-  bool goOn(Rgb onward, const FixedRgb& fixedOnward, float u, Vec3f wi, Vec3f wo, Vec3f n, Vec3f ns) {
+  bool scatter(const Hit& hit, const std::array<std::uint32_t, 4>& words, Vec3f wi, Vec3f n, Vec3f ns) {
+    Bsdf scratch;
+    const Bsdf& bsdf = scene_.surfaces().bsdf(hit.material, hit.triangle, hit.b, scratch);
+    const Frame<float> frame(ns);
+    return bsdf.lambert() ? scatterDiffuse(bsdf, frame, words, wi, n) : scatterCoated(bsdf, frame, words, wi, n);
+  }
+
+  /// Of a diffuse surface every way on weighs its albedo, and none is lost.
+  bool scatterDiffuse(const Bsdf& bsdf, const Frame<float>& frame, const std::array<std::uint32_t, 4>& words, Vec3f wi,
+                      Vec3f n) {
+    const Rgb onward = beta_ * bsdf.diffuse;
+    const FixedRgb fixedOnward(onward);
+    path_.absorbed += fixed_ - fixedOnward;
+    // Unit but for the rounding of this one hit: nothing of it is handed on from bounce to bounce.
+    direction_ = frame.toWorld(sampleLambert({toUnitFloat(words[1]), toUnitFloat(words[2])}));
+    return goOn(onward, fixedOnward, toUnitFloat(words[3]), wi, n, frame.n);
+  }
+
+  bool scatterCoated(const Bsdf& bsdf, const Frame<float>& frame, const std::array<std::uint32_t, 4>& words, Vec3f wi,
+                     Vec3f n) {
+    const SampleWithAlbedo s = sampleWithAlbedo(bsdf, frame.toLocal(wi),
+                                                {toUnitFloat(words[0]), toUnitFloat(words[1]), toUnitFloat(words[2])});
+    const Rgb onward = s.sample ? sane(beta_ * s.sample->weight) : Rgb{};
+    const FixedRgb fixedOnward(onward);
+    path_.absorbed += fixed_ - fixedOnward;
+    path_.error += FixedRgb(sane(beta_ * s.albedo)) - fixedOnward;
+    if (!s.sample) return false;
+    direction_ = normalize(frame.toWorld(s.sample->wo));
+    return goOn(onward, fixedOnward, toUnitFloat(words[3]), wi, n, frame.n);
+  }
+
+  bool goOn(Rgb onward, const FixedRgb& fixedOnward, float u, Vec3f wi, Vec3f n, Vec3f ns) {
     if (ns == n) return roulette(onward, fixedOnward, u);
-    const Rgb corrected = onward * shadingCorrection(wi, wo, n, ns);
+    const Rgb corrected = onward * shadingCorrection(wi, direction_, n, ns);
     const FixedRgb fixedCorrected(corrected);
     path_.shadingNormal += fixedOnward - fixedCorrected;
     return roulette(corrected, fixedCorrected, u);
   }
 
-  /// Interpolated normals make the BSDF non-symmetric; light carries the adjoint one, f · |wi·ns||wo·n| / (|wi·n||wo·ns|)
-  /// (Veach 1997, equation 5.19), and none goes through the surface.
+  /// Interpolated normals make the BSDF non-symmetric; light carries the adjoint one, f · |wi·ns||wo·n| /
+  /// (|wi·n||wo·ns|) (Veach 1997, equation 5.19), and none goes through the surface.
   float shadingCorrection(Vec3f wi, Vec3f wo, Vec3f n, Vec3f ns) {
     const float woN = dot(wo, n);
     if (woN <= 0) return 0;
@@ -151,12 +169,11 @@ class PhotonPath {
   /// Survival in proportion to what is left of the photon, so that beta stays nearly constant.
   bool roulette(Rgb onward, const FixedRgb& fixedOnward, float u) {
     const float left = maxComponent(onward);
-    const float p = left < reference_ ? left / reference_ : 1.f;
-    if (!(left > 0) || !(u < p)) {
+    if (!(u * reference_ < left)) {  // p = min(1, left / reference)
       path_.roulette += fixedOnward;
       return false;
     }
-    setBeta(sane(onward * (1.f / p)));
+    setBeta(sane(onward * std::max(1.f, reference_ / left)));
     path_.roulette += fixedOnward - fixed_;
     return true;
   }
@@ -169,8 +186,7 @@ class PhotonPath {
   /// Numbers that no arithmetic should give are counted and dropped, never passed on.
   Rgb sane(Rgb beta) {
     constexpr float kLargest = 0x1p24f;  // far above what roulette lets grow; keeps a path's sums in 64 bits
-    const auto good = [](float v) { return v >= 0 && v <= kLargest; };  // false for NaN
-    if (good(beta.x) && good(beta.y) && good(beta.z)) return beta;
+    if (minComponent(beta) >= 0 && beta.x + beta.y + beta.z <= kLargest) return beta;  // NaN fails the second
     ++ledger_.strayValues;
     return {};
   }

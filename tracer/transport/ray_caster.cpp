@@ -13,10 +13,6 @@
 namespace lucarne {
 namespace {
 
-/// Coordinates are within about one unit of the origin (scene.h), so one absolute offset serves: a float position is off
-/// by up to 2^-24, Embree's plane distance by a few times that.
-constexpr float kLeave = 0x1p-21f;
-
 std::string defaultIsa() {
 #if defined(__x86_64__)
   return __builtin_cpu_supports("avx2") ? "avx2" : "sse4.2";
@@ -28,7 +24,8 @@ std::string defaultIsa() {
 [[noreturn]] void failWith(RTCDevice device, const std::string& what) {
   const RTCError code = rtcGetDeviceError(device);
   if (code == RTC_ERROR_OUT_OF_MEMORY) throw Error(ExitCode::outOfResource, "out of memory while " + what);
-  throw Error(ExitCode::failed, "Embree failed while " + what + " (error " + std::to_string(static_cast<int>(code)) + ")");
+  throw Error(ExitCode::failed,
+              "Embree failed while " + what + " (error " + std::to_string(static_cast<int>(code)) + ")");
 }
 
 void castRay(RTCScene scene, RTCRayHit& ray) {
@@ -77,8 +74,9 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
   for (std::uint32_t i = 0; i < n; ++i) {
     for (const std::uint32_t v : scene.triangles[i].v) *indices++ = v;
     const Vec3d scaled = scene.scaledNormal(i);
-    triangles_.push_back({scene.corner(i, 0), scene.corner(i, 1) - scene.corner(i, 0), scene.corner(i, 2) - scene.corner(i, 0),
-                          Vec3f(normalize(scaled)), scene.triangles[i].material, !scene.smooth.empty() && scene.smooth[i] != 0});
+    triangles_.push_back({scene.corner(i, 0), scene.corner(i, 1) - scene.corner(i, 0),
+                          scene.corner(i, 2) - scene.corner(i, 0), Vec3f(normalize(scaled)),
+                          scene.triangles[i].material, !scene.smooth.empty() && scene.smooth[i] != 0});
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(embreeScene_, geometry);
@@ -87,11 +85,7 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
   if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) failWith(device_, "building the ray tracing structure");
 }
 
-Vec3f RayCaster::leave(Vec3d position, Vec3f n) {
-  return Vec3f(position + Vec3d(n) * static_cast<double>(kLeave));
-}
-
-std::optional<Hit> RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const {
+std::uint32_t RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const {
   RTCRayHit ray;
   ray.ray.org_x = origin.x;
   ray.ray.org_y = origin.y;
@@ -109,29 +103,12 @@ std::optional<Hit> RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     castRay(embreeScene_, ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    if (ray.hit.primID != from) return intersect(ray.hit.primID, origin, direction);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNone;
+    if (ray.hit.primID != from) return ray.hit.primID;
     ++repeats;  // a plane cannot be met twice: rounding. Go on behind it.
     ray.ray.tnear = ray.ray.tfar * (1 + 0x1p-22f) + 0x1p-24f;
   }
-  return std::nullopt;
-}
-
-/// Möller and Trumbore 1997 in double, known to hit: results are clamped into the triangle instead of tested. Side by the
-/// sign of direction · n.
-std::optional<Hit> RayCaster::intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const {
-  const TriangleData& t = triangles_[triangle];
-  const Vec3d e1(t.e1), e2(t.e2), d(direction), s = Vec3d(origin) - Vec3d(t.p0);
-  const Vec3d p = cross(d, e2);
-  const double det = dot(e1, p);
-  double b1 = 0, b2 = 0;
-  if (det != 0) {
-    const double inv = 1 / det;
-    b1 = std::clamp(dot(s, p) * inv, 0.0, 1.0);
-    b2 = std::clamp(dot(d, cross(s, e1)) * inv, 0.0, 1.0 - b1);
-  }
-  return Hit{triangle, {static_cast<float>(b1), static_cast<float>(b2)}, Vec3d(t.p0) + e1 * b1 + e2 * b2, t.n,
-             dot(t.n, direction) > 0, t.smooth, t.material};
+  return kNone;
 }
 
 }  // namespace lucarne

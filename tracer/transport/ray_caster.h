@@ -1,10 +1,9 @@
-// Nearest hits over Embree. From Embree only the triangle is taken; t and barycentrics are recomputed in double from our own
-// vertices, so that the numbers do not depend on how Embree's kernels round.
+// Nearest hits over Embree. From Embree only the triangle is taken; t and barycentrics are recomputed in double from
+// our own vertices, so that the numbers do not depend on how Embree's kernels round.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,17 +17,17 @@ namespace lucarne {
 
 struct Hit {
   std::uint32_t triangle;
-  Vec2f b;        // barycentrics (b1, b2), clamped into the triangle
-  Vec3d position; // local, on the triangle's plane
-  Vec3f n;        // unit geometric normal of the front
-  bool back;      // the ray came from behind
-  bool smooth;    // of the triangle: normals are interpolated
+  Vec2f b;         // barycentrics (b1, b2), clamped into the triangle
+  Vec3d position;  // local, on the triangle's plane
+  Vec3f n;         // unit geometric normal of the front
+  bool back;       // the ray came from behind
+  bool smooth;     // of the triangle: normals are interpolated
   std::uint32_t material;
 };
 
 struct RayCasterOptions {
-  std::string isa;      // "avx2", "sse4.2", …; empty: avx2 where the processor has it
-  bool robust = true;   // watertight edges, 13–20 % slower
+  std::string isa;     // "avx2", "sse4.2", …; empty: avx2 where the processor has it
+  bool robust = true;  // watertight edges, 13–20 % slower
 };
 
 class RayCaster {
@@ -38,12 +37,15 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  /// Nearest triangle along a unit direction, ignoring `from` (the triangle that the ray leaves, or kNone). `repeats` counts
-  /// the rare rays that met `from` again by rounding and were cast on.
-  std::optional<Hit> nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const;
+  /// Nearest triangle along a unit direction, ignoring `from` (the triangle that the ray leaves, or kNone); kNone where
+  /// there is none. `repeats` counts the rare rays that met `from` again by rounding and were cast on.
+  std::uint32_t nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const;
+
+  /// Where a ray that is known to meet the triangle does so.
+  Hit intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const;
 
   /// A point just off the surface at `position`, on the side of `n`: far enough that the surface is not met again.
-  static Vec3f leave(Vec3d position, Vec3f n);
+  static Vec3f leave(Vec3d position, Vec3f n) { return Vec3f(position + Vec3d(n) * static_cast<double>(kLeave)); }
 
   /// What was built with, for reports: "Embree 3.13.5, avx2, robust".
   const std::string& description() const { return description_; }
@@ -56,7 +58,9 @@ class RayCaster {
     std::uint32_t material;
     bool smooth;
   };
-  std::optional<Hit> intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const;
+  /// Coordinates are within about one unit of the origin (scene.h), so one absolute offset serves: a float position is
+  /// off by up to 2^-24, Embree's plane distance by a few times that.
+  static constexpr float kLeave = 0x1p-21f;
   void build(const Scene& scene, const RayCasterOptions& options);
 
   RTCDeviceTy* device_ = nullptr;
@@ -64,5 +68,24 @@ class RayCaster {
   std::vector<TriangleData> triangles_;
   std::string description_, isa_;
 };
+
+/// Möller and Trumbore 1997 in double, known to hit: results are clamped into the triangle instead of tested. Side by
+/// the sign of direction · n.
+inline Hit RayCaster::intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const {
+  const TriangleData& t = triangles_[triangle];
+  const Vec3d p0(t.p0), e1(t.e1), e2(t.e2), d(direction), s = Vec3d(origin) - p0;
+  const Vec3d p = cross(d, e2);
+  const double det = dot(e1, p);
+  const double inv = det != 0 ? 1 / det : 0;
+  const double b1 = std::min(std::max(dot(s, p) * inv, 0.0), 1.0);
+  const double b2 = std::min(std::max(dot(d, cross(s, e1)) * inv, 0.0), 1.0 - b1);
+  return {triangle,
+          {static_cast<float>(b1), static_cast<float>(b2)},
+          p0 + e1 * b1 + e2 * b2,
+          t.n,
+          dot(t.n, direction) > 0,
+          t.smooth,
+          t.material};
+}
 
 }  // namespace lucarne
