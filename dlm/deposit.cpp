@@ -3,6 +3,11 @@
 namespace lucarne {
 
 TexelMap::TexelMap(const Scene& scene, const ChartSet& charts, const TexelLayout& layout, const TallyLayout& tallies) {
+  for (const TallySide& s : tallies.sides) {
+    const MemberSet& set = tallies.membersOf(s);
+    sides_.push_back({s.width, s.height, s.firstLight, s.firstTexel, s.texelCount(),
+                      set.members.empty() ? nullptr : set.rank.data()});
+  }
   entries_.resize(scene.triangles.size(), Entry{{}, {}, {}, kNone, kNone});
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const std::uint32_t c = charts.chartOfTriangle[t];
@@ -14,7 +19,8 @@ TexelMap::TexelMap(const Scene& scene, const ChartSet& charts, const TexelLayout
       st[k] = {static_cast<double>(uv.x) * scale.x, static_cast<double>(uv.y) * scale.y};
     }
     const auto toFloat = [](Vec2d v) { return Vec2f{static_cast<float>(v.x), static_cast<float>(v.y)}; };
-    entries_[t] = {toFloat(st[0]), toFloat(st[1] - st[0]), toFloat(st[2] - st[0]), tallies.frontSide[c], tallies.backSide[c]};
+    entries_[t] = {toFloat(st[0]), toFloat(st[1] - st[0]), toFloat(st[2] - st[0]), tallies.frontSide[c],
+                   tallies.backSide[c]};
   }
 }
 

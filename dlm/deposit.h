@@ -20,14 +20,22 @@ enum class LightPart : std::uint8_t { all, direct, indirect };
 class TexelMap {
  public:
   struct alignas(32) Entry {
-    Vec2f st0, e1, e2;             // texel coordinates of corner 0, edges to corners 1 and 2
-    std::uint32_t front, back;     // tally sides, kNone: none
+    Vec2f st0, e1, e2;          // texel coordinates of corner 0, edges to corners 1 and 2
+    std::uint32_t front, back;  // sides, kNone: none
   };
+  struct Side {  // of TallyLayout::sides what a deposit reads
+    int width, height;
+    std::uint64_t firstLight, firstTexel, texelCount;
+    const std::uint16_t* rank;  // by ψ; null: one map takes all
+  };
+  /// `tallies` must outlive this.
   TexelMap(const Scene& scene, const ChartSet& charts, const TexelLayout& layout, const TallyLayout& tallies);
   const Entry& operator[](std::uint32_t triangle) const { return entries_[triangle]; }
+  const Side& side(std::uint32_t i) const { return sides_[i]; }
 
  private:
   std::vector<Entry> entries_;
+  std::vector<Side> sides_;
 };
 
 /// Sums of what the sink stored, in tally units.
@@ -36,13 +44,17 @@ struct DepositSums {
   std::uint64_t storedHits = 0, clamped = 0;
 };
 
-/// One thread's sink. `shared`: other threads add to the same tallies (relaxed atomic adds), else plain adds. Flushed by
-/// flush(), which must be called before the tallies are read.
+/// One thread's sink. `shared`: other threads add to the same tallies (relaxed atomic adds), else plain adds. Flushed
+/// by flush(), which must be called before the tallies are read.
 template <bool shared>
 class DepositSink {
  public:
-  DepositSink(const TexelMap& map, const TallyLayout& layout, const DirectionSet& directions, LightPart part, const Tallies& tallies)
-      : map_(map), layout_(layout), directions_(directions), part_(part), light_(tallies.light().data()),
+  DepositSink(const TexelMap& map, const TallyLayout&, const DirectionSet& directions, LightPart part,
+              const Tallies& tallies)
+      : map_(map),
+        directions_(directions),
+        part_(part),
+        light_(tallies.light().data()),
         statistics_(tallies.statistics().data()) {}
 
   void hit(const PhotonHit& h) {
@@ -50,13 +62,15 @@ class DepositSink {
     const TexelMap::Entry& entry = map_[h.hit.triangle];
     const std::uint32_t sideIndex = h.hit.back ? entry.back : entry.front;
     if (sideIndex == kNone) return;
-    const TallySide& side = layout_.sides[sideIndex];
+    const TexelMap::Side& side = map_.side(sideIndex);
     const Vec2f st = entry.st0 + entry.e1 * h.hit.b.x + entry.e2 * h.hit.b.y;
-    const int x = std::clamp(static_cast<int>(st.x), 0, side.width - 1), y = std::clamp(static_cast<int>(st.y), 0, side.height - 1);
-    const auto texel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(side.width) + static_cast<std::uint64_t>(x);
-    const MemberSet& set = layout_.memberSets[side.memberSet];
-    const std::uint64_t rank = set.members.empty() ? 0 : set.rank[static_cast<std::size_t>(directions_.nearest(h.wi))];
-    splat(side.firstLight + rank * side.texelCount() + texel, side.firstTexel + texel, h);
+    const int x = std::min(std::max(static_cast<int>(st.x), 0), side.width - 1);
+    const int y = std::min(std::max(static_cast<int>(st.y), 0), side.height - 1);
+    const auto texel =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(side.width) + static_cast<std::uint64_t>(x);
+    const std::uint64_t rank =
+        side.rank == nullptr ? 0 : side.rank[static_cast<std::size_t>(directions_.nearest(h.wi))];
+    splat(side.firstLight + rank * side.texelCount + texel, side.firstTexel + texel, h);
   }
 
   void endPhoton() {
@@ -75,6 +89,8 @@ class DepositSink {
       add(p + 1, roundUnits(m2, path_[i].word));
     }
     path_.clear();
+    sums_.incident += incident_;
+    incident_ = {};
   }
 
   void flush() {
@@ -83,11 +99,15 @@ class DepositSink {
       p.at = nullptr;
     }
   }
-  const DepositSums& sums() const { return sums_; }
+  DepositSums sums() const {
+    DepositSums all = sums_;
+    all.incident += incident_;
+    return all;
+  }
 
  private:
   static constexpr std::uint64_t kTaken = ~std::uint64_t{0};
-  static constexpr float kLargestSquare = 0x1p38f;  // times 2^24 still fits 63 bits
+  static constexpr float kLargestSquare = 0x1p30f;  // times 2^32 still fits 63 bits
   struct Pending {
     std::int64_t* at = nullptr;
     std::array<std::int64_t, 3> units{};
@@ -98,11 +118,11 @@ class DepositSink {
     std::uint32_t word;  // for rounding
   };
 
-  /// v in fixed point, rounded up with the probability of the fraction (to 1/256), so that small values are kept on
-  /// average: the mean is off by at most 2^-9 units.
+  /// v in fixed point, rounded up with the probability of the fraction, so that small values are kept on average: to
+  /// nearest in units of 1/256, then the low 8 bits of `word` are added and 8 bits dropped. The mean is off by at most
+  /// 2^-9 units. v ≤ 2^30.
   static std::int64_t roundUnits(float v, std::uint32_t word) {
-    return static_cast<std::int64_t>(static_cast<double>(v) * static_cast<double>(kFixedPointOne) +
-                                     static_cast<double>(lowBitsToUnit(word)));
+    return (std::llrint(v * (kFixedPointOne * 256)) + static_cast<std::int64_t>(word & 0xffu)) >> 8;
   }
   static void add(std::int64_t* p, std::int64_t v) {
     if constexpr (shared)
@@ -132,7 +152,7 @@ class DepositSink {
     __builtin_prefetch(slot.at + 2, 1);
     __builtin_prefetch(statistics_ + texel * kStatisticsChannels, 1);
     slot.units = {roundUnits(value.x, h.words[0]), roundUnits(value.y, h.words[1]), roundUnits(value.z, h.words[2])};
-    for (std::size_t c = 0; c < 3; ++c) sums_.incident.units[c] += slot.units[c];
+    for (std::size_t c = 0; c < 3; ++c) incident_.units[c] += slot.units[c];
     ++sums_.storedHits;
     path_.push_back({texel, luminance(value), h.words[3]});
   }
@@ -142,7 +162,6 @@ class DepositSink {
   }
 
   const TexelMap& map_;
-  const TallyLayout& layout_;
   const DirectionSet& directions_;
   LightPart part_;
   std::int64_t* light_;
@@ -150,6 +169,7 @@ class DepositSink {
   std::array<Pending, 16> ring_{};
   std::size_t head_ = 0;
   std::vector<PathHit> path_;
+  FixedRgb incident_;  // of the photon in flight; 64 bits hold any single path
   DepositSums sums_;
 };
 

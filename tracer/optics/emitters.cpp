@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
 
-/// Falloff of a spot at cosine c: ((c − cosOuter)/(cosInner − cosOuter))², 1 inside the inner cone (KHR_lights_punctual).
-/// Its flux per unit of intensity is 2π[(1 − ci) + (ci − co)/3].
+/// Falloff of a spot at cosine c: ((c − cosOuter)/(cosInner − cosOuter))², 1 inside the inner cone
+/// (KHR_lights_punctual). Its flux per unit of intensity is 2π[(1 − ci) + (ci − co)/3].
 double spotFlux(const Light& l) { return 2 * kPiD * ((1 - l.cosInner) + (l.cosInner - l.cosOuter) / 3); }
 
-/// Cosine distributed like the falloff, so that every photon carries the same flux: a share of the inner cone uniform in
-/// cosine, the rest by inverting the cube of the ramp.
+/// Cosine distributed like the falloff, so that every photon carries the same flux: a share of the inner cone uniform
+/// in cosine, the rest by inverting the cube of the ramp.
 double sampleSpotCosine(const Light& l, double u) {
   const double inner = 1 - l.cosInner, ramp = (l.cosInner - l.cosOuter) / 3;
   const double x = u * (inner + ramp);
@@ -44,9 +44,7 @@ void forEachPiece(int n, F&& f) {
 template <class F>
 double quadrature(const std::array<Vec2f, 3>& piece, F&& value) {
   double sum = 0;
-  forEachPiece(4, [&](const std::array<Vec2f, 3>& cell) {
-    sum += value(at(piece, at(cell, {1.f / 3, 1.f / 3})));
-  });
+  forEachPiece(4, [&](const std::array<Vec2f, 3>& cell) { sum += value(at(piece, at(cell, {1.f / 3, 1.f / 3}))); });
   return sum / 16;
 }
 
@@ -90,14 +88,17 @@ void EmitterTable::addTriangle(std::uint32_t triangle) {
   const double s = scene_->frame.scale;
   const double area = 0.5 * length(scene_->scaledNormal(triangle)) * s * s;
   if (!(area > 0)) return;
-  const double sides = surfaces_->doubleSided(scene_->triangles[triangle].material) ? 2 : 1;
+  const Material& m = scene_->materials[scene_->triangles[triangle].material];
+  const double sides = m.doubleSided ? 2 : 1;
   const auto radiance = [&](Vec2f b) { return static_cast<double>(mean(surfaces_->emission(triangle, b))); };
   const int n = subdivisions(triangle);
+  const double pieceArea = area / (static_cast<double>(n) * n);
+  const auto face = static_cast<std::uint32_t>(faces_.size());
   std::vector<Emitter> pieces;
   double total = 0;
   forEachPiece(n, [&](const std::array<Vec2f, 3>& corners) {
     const double value = n == 1 ? quadrature(kWholeTriangle, radiance) : quadrature(corners, radiance);
-    pieces.push_back({value, triangle, kNone, corners, area / (static_cast<double>(n) * n)});
+    pieces.push_back({value, 0, face, kNone, corners[0], corners[1] - corners[0], corners[2] - corners[0]});
     total += value;
   });
   if (!(total > 0)) return;
@@ -105,9 +106,14 @@ void EmitterTable::addTriangle(std::uint32_t triangle) {
   const double even = total / static_cast<double>(pieces.size());
   for (Emitter& e : pieces) {
     const double value = pieces.size() == 1 ? e.flux : 0.9 * e.flux + 0.1 * even;
-    e.flux = sides * kPiD * e.area * value;
+    e.flux = sides * kPiD * pieceArea * value;
+    e.beta = sides * kPiD * pieceArea / e.flux;
     emitters_.push_back(e);
   }
+  const Vec3f p0 = scene_->corner(triangle, 0);
+  faces_.push_back({p0, scene_->corner(triangle, 1) - p0, scene_->corner(triangle, 2) - p0,
+                    Vec3f(normalize(scene_->scaledNormal(triangle))), m.emissive, triangle, bool(m.emissiveTexture),
+                    m.doubleSided});
 }
 
 void EmitterTable::addLight(std::uint32_t index) {
@@ -116,15 +122,21 @@ void EmitterTable::addLight(std::uint32_t index) {
   const double metres = radius_ * scene_->frame.scale;
   double flux = 0;
   switch (l.kind) {
-    case LightKind::point: flux = 4 * kPiD * intensity; break;
-    case LightKind::spot: flux = spotFlux(l) * intensity; break;
-    case LightKind::directional: flux = kPiD * metres * metres * intensity; break;
+    case LightKind::point:
+      flux = 4 * kPiD * intensity;
+      break;
+    case LightKind::spot:
+      flux = spotFlux(l) * intensity;
+      break;
+    case LightKind::directional:
+      flux = kPiD * metres * metres * intensity;
+      break;
   }
   if (!(flux > 0)) {
     dark_.push_back(l.name);
     return;
   }
-  emitters_.push_back({flux, kNone, index, {}, 0});
+  emitters_.push_back({flux, 0, kNone, index, {}, {}, {}});
 }
 
 void EmitterTable::buildTable() {
@@ -149,22 +161,20 @@ std::size_t EmitterTable::pick(double u) const {
 
 EmittedPhoton EmitterTable::sample(const EmissionSample& u) const {
   const Emitter& e = emitters_[pick(u.pick)];
-  return e.triangle != kNone ? emitFromTriangle(e, u) : emitFromLight(e, u);
+  return e.face != kNone ? emitFromTriangle(e, u) : emitFromLight(e, u);
 }
 
 /// Position pdf 1/area, direction pdf cos/π, side pdf 1/sides, piece pdf flux/total:
 /// beta = Le·cos / (pdf) / total = Le · π · area · sides / flux.
 EmittedPhoton EmitterTable::emitFromTriangle(const Emitter& e, const EmissionSample& u) const {
-  const Vec2f b = at(e.bary, sampleTriangle(u.position));
-  const bool twoSided = surfaces_->doubleSided(scene_->triangles[e.triangle].material);
-  const Vec3d scaled = scene_->scaledNormal(e.triangle);
-  Vec3f n(scaled / length(scaled));
-  if (twoSided && u.side < 0.5f) n = -n;
-  const double factor = (twoSided ? 2 : 1) * kPiD * e.area / e.flux;
-  const Vec3d p0(scene_->corner(e.triangle, 0)), p1(scene_->corner(e.triangle, 1)), p2(scene_->corner(e.triangle, 2));
-  const Vec3d p = p0 + (p1 - p0) * static_cast<double>(b.x) + (p2 - p0) * static_cast<double>(b.y);
+  const Face& f = faces_[e.face];
+  const Vec2f p = sampleTriangle(u.position);
+  const Vec2f b = e.bary0 + e.edge1 * p.x + e.edge2 * p.y;
+  const Vec3f n = f.twoSided && u.side < 0.5f ? -f.n : f.n;
+  const Vec3d position = Vec3d(f.p0) + Vec3d(f.e1) * static_cast<double>(b.x) + Vec3d(f.e2) * static_cast<double>(b.y);
   const Vec3f direction = Frame<float>(n).toWorld(sampleCosineHemisphere(u.direction));
-  return {p, direction, Rgb(Rgbd(surfaces_->emission(e.triangle, b)) * factor), e.triangle, n};
+  const Rgb radiance = f.textured ? surfaces_->emission(f.triangle, b) : f.radiance;
+  return {position, direction, Rgb(Rgbd(radiance) * e.beta), f.triangle, n};
 }
 
 EmittedPhoton EmitterTable::emitFromLight(const Emitter& e, const EmissionSample& u) const {

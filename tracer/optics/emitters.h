@@ -44,12 +44,18 @@ class EmitterTable {
   const std::vector<std::string>& dark() const { return dark_; }
 
  private:
-  struct Emitter {
-    double flux;                // weight, lm (mean over channels)
-    std::uint32_t triangle;     // kNone: light
+  struct Emitter {       // a light, or a piece of a face
+    double flux;         // weight, lm (mean over channels)
+    double beta;         // of a photon, per unit of radiance where it starts
+    std::uint32_t face;  // into faces_; kNone: light
     std::uint32_t light;
-    std::array<Vec2f, 3> bary;  // corners of the piece in barycentrics of the triangle
-    double area;                // of the piece, m²
+    Vec2f bary0, edge1, edge2;  // corner and edges of the piece in barycentrics of the face
+  };
+  struct Face {  // what all pieces of one emissive triangle share
+    Vec3f p0, e1, e2, n;
+    Rgb radiance;  // cd/m², where it is the same everywhere
+    std::uint32_t triangle;
+    bool textured, twoSided;
   };
   void addTriangle(std::uint32_t triangle);
   void addLight(std::uint32_t index);
@@ -61,9 +67,10 @@ class EmitterTable {
 
   const Scene* scene_;
   const SurfaceTable* surfaces_;
-  Vec3d center_{};         // bounding sphere of the scene, local
+  Vec3d center_{};  // bounding sphere of the scene, local
   double radius_ = 0;
   std::vector<Emitter> emitters_;
+  std::vector<Face> faces_;
   std::vector<double> cumulative_;    // [i] = Σ flux of 0..i, divided by the total
   std::vector<std::uint32_t> guide_;  // guide_[k]: first i with cumulative_[i] > k/size
   double totalFlux_ = 0;

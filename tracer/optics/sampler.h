@@ -23,8 +23,6 @@ constexpr std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> c
   return counter;
 }
 
-/// The low 8 bits in [0, 1), centred: for rounding, apart from what toUnitFloat takes of the same word.
-constexpr float lowBitsToUnit(std::uint32_t bits) { return (static_cast<float>(bits & 0xffu) + 0.5f) * 0x1p-8f; }
 /// The top 24 bits as a float in [0, 1).
 constexpr float toUnitFloat(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 /// 53 bits as a double in [0, 1).
