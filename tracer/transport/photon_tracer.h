@@ -79,7 +79,7 @@ class PhotonPath {
   }
 
  private:
-  void emit() {
+  [[gnu::always_inline]] void emit() {
     const auto pick = sampler_.words(0, Stream::emitter);
     const auto u = sampler_.floats(0, Stream::emission);
     const EmittedPhoton photon =
@@ -93,7 +93,7 @@ class PhotonPath {
   }
 
   /// One segment and what happens at its end. False when the path is over.
-  bool step(std::uint32_t event) {
+  [[gnu::always_inline]] bool step(std::uint32_t event) {
     ++ledger_.rays;
     const std::uint32_t triangle = scene_.rayCaster().nearest(origin_, direction_, from_, ledger_.repeatedRays);
     if (triangle == kNone) {
@@ -116,7 +116,8 @@ class PhotonPath {
     return true;
   }
 
-  bool scatter(const Hit& hit, const std::array<std::uint32_t, 4>& words, Vec3f wi, Vec3f n, Vec3f ns) {
+  [[gnu::always_inline]] bool scatter(const Hit& hit, const std::array<std::uint32_t, 4>& words, Vec3f wi, Vec3f n,
+                                      Vec3f ns) {
     Bsdf scratch;
     const Bsdf& bsdf = scene_.surfaces().bsdf(hit.material, hit.triangle, hit.b, scratch);
     const Frame<float> frame(ns);
@@ -124,8 +125,8 @@ class PhotonPath {
   }
 
   /// Of a diffuse surface every way on weighs its albedo, and none is lost.
-  bool scatterDiffuse(const Bsdf& bsdf, const Frame<float>& frame, const std::array<std::uint32_t, 4>& words, Vec3f wi,
-                      Vec3f n) {
+  [[gnu::always_inline]] bool scatterDiffuse(const Bsdf& bsdf, const Frame<float>& frame,
+                                             const std::array<std::uint32_t, 4>& words, Vec3f wi, Vec3f n) {
     const Rgb onward = beta_ * bsdf.diffuse;
     const FixedRgb fixedOnward(onward);
     path_.absorbed += fixed_ - fixedOnward;
@@ -147,7 +148,7 @@ class PhotonPath {
     return goOn(onward, fixedOnward, toUnitFloat(words[3]), wi, n, frame.n);
   }
 
-  bool goOn(Rgb onward, const FixedRgb& fixedOnward, float u, Vec3f wi, Vec3f n, Vec3f ns) {
+  [[gnu::always_inline]] bool goOn(Rgb onward, const FixedRgb& fixedOnward, float u, Vec3f wi, Vec3f n, Vec3f ns) {
     if (ns == n) return roulette(onward, fixedOnward, u);
     const Rgb corrected = onward * shadingCorrection(wi, direction_, n, ns);
     const FixedRgb fixedCorrected(corrected);
@@ -167,7 +168,7 @@ class PhotonPath {
   }
 
   /// Survival in proportion to what is left of the photon, so that beta stays nearly constant.
-  bool roulette(Rgb onward, const FixedRgb& fixedOnward, float u) {
+  [[gnu::always_inline]] bool roulette(Rgb onward, const FixedRgb& fixedOnward, float u) {
     const float left = maxComponent(onward);
     if (!(u * reference_ < left)) {  // p = min(1, left / reference)
       path_.roulette += fixedOnward;
@@ -178,13 +179,13 @@ class PhotonPath {
     return true;
   }
 
-  void setBeta(Rgb beta) {
+  [[gnu::always_inline]] void setBeta(Rgb beta) {
     beta_ = beta;
     fixed_ = FixedRgb(beta);
   }
 
   /// Numbers that no arithmetic should give are counted and dropped, never passed on.
-  Rgb sane(Rgb beta) {
+  [[gnu::always_inline]] Rgb sane(Rgb beta) {
     constexpr float kLargest = 0x1p24f;  // far above what roulette lets grow; keeps a path's sums in 64 bits
     if (minComponent(beta) >= 0 && beta.x + beta.y + beta.z <= kLargest) return beta;  // NaN fails the second
     ++ledger_.strayValues;
