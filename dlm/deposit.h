@@ -83,10 +83,8 @@ class DepositSink {
         sum += path_[j].luminance;
         path_[j].texel = kTaken;
       }
-      const float m2 = std::min(sum * sum, kLargestSquare);
-      std::int64_t* p = statistics_ + path_[i].texel * kStatisticsChannels;
-      add(p, 1);
-      add(p + 1, roundUnits(m2, path_[i].word));
+      count(statistics_ + path_[i].texel * kStatisticsChannels,
+            roundUnits(std::min(sum * sum, kLargestSquare), path_[i].word));
     }
     path_.clear();
     sums_.incident += incident_;
@@ -95,6 +93,10 @@ class DepositSink {
 
   void flush() {
     for (Pending& p : ring_) {
+      apply(p);
+      p.at = nullptr;
+    }
+    for (PendingCount& p : counts_) {
       apply(p);
       p.at = nullptr;
     }
@@ -111,6 +113,10 @@ class DepositSink {
   struct Pending {
     std::int64_t* at = nullptr;
     std::array<std::int64_t, 3> units{};
+  };
+  struct PendingCount {
+    std::int64_t* at = nullptr;
+    std::int64_t m2 = 0;
   };
   struct PathHit {
     std::uint64_t texel;
@@ -151,10 +157,23 @@ class DepositSink {
     __builtin_prefetch(slot.at, 1);
     __builtin_prefetch(slot.at + 2, 1);
     __builtin_prefetch(statistics_ + texel * kStatisticsChannels, 1);
-    slot.units = {roundUnits(value.x, h.words[0]), roundUnits(value.y, h.words[1]), roundUnits(value.z, h.words[2])};
-    for (std::size_t c = 0; c < 3; ++c) incident_.units[c] += slot.units[c];
+    const std::int64_t r = roundUnits(value.x, h.words[0]), g = roundUnits(value.y, h.words[1]),
+                       b = roundUnits(value.z, h.words[2]);
+    slot.units = {r, g, b};
+    incident_.units = {incident_.units[0] + r, incident_.units[1] + g, incident_.units[2] + b};
     ++sums_.storedHits;
     path_.push_back({texel, luminance(value), h.words[3]});
+  }
+  void count(std::int64_t* at, std::int64_t m2) {
+    PendingCount& slot = counts_[countHead_];
+    countHead_ = (countHead_ + 1) % counts_.size();
+    apply(slot);
+    slot = {at, m2};
+  }
+  static void apply(const PendingCount& p) {
+    if (p.at == nullptr) return;
+    add(p.at, 1);
+    add(p.at + 1, p.m2);
   }
   static void apply(const Pending& p) {
     if (p.at == nullptr) return;
@@ -167,7 +186,8 @@ class DepositSink {
   std::int64_t* light_;
   std::int64_t* statistics_;
   std::array<Pending, 16> ring_{};
-  std::size_t head_ = 0;
+  std::array<PendingCount, 16> counts_{};
+  std::size_t head_ = 0, countHead_ = 0;
   std::vector<PathHit> path_;
   FixedRgb incident_;  // of the photon in flight; 64 bits hold any single path
   DepositSums sums_;

@@ -69,16 +69,15 @@ class RayCaster {
   std::string description_, isa_;
 };
 
-/// Möller and Trumbore 1997 in double, known to hit: results are clamped into the triangle instead of tested. Side by
-/// the sign of direction · n.
+/// Möller and Trumbore 1997 in double, known to hit: results are clamped into the triangle instead of tested, a ray in
+/// its plane (0/0, 1/0) too: std::max(0, NaN) is 0. Side by the sign of direction · n.
 inline Hit RayCaster::intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const {
   const TriangleData& t = triangles_[triangle];
   const Vec3d p0(t.p0), e1(t.e1), e2(t.e2), d(direction), s = Vec3d(origin) - p0;
   const Vec3d p = cross(d, e2);
-  const double det = dot(e1, p);
-  const double inv = det != 0 ? 1 / det : 0;
-  const double b1 = std::min(std::max(dot(s, p) * inv, 0.0), 1.0);
-  const double b2 = std::min(std::max(dot(d, cross(s, e1)) * inv, 0.0), 1.0 - b1);
+  const double inv = 1 / dot(e1, p);
+  const double b1 = std::min(std::max(0.0, dot(s, p) * inv), 1.0);
+  const double b2 = std::min(std::max(0.0, dot(d, cross(s, e1)) * inv), 1.0 - b1);
   return {triangle,
           {static_cast<float>(b1), static_cast<float>(b2)},
           p0 + e1 * b1 + e2 * b2,
