@@ -51,12 +51,12 @@ class Scout {
   };
   Sight sight(Vec3d eye, Vec3d direction) const {
     std::uint64_t repeats = 0;
-    const std::optional<Hit> hit = caster_.nearest(Vec3f(eye), Vec3f(direction), kNone, repeats);
-    if (!hit) return {};
-    const std::uint32_t material = scene_.triangles[hit->triangle].material;
-    if (hit->back && !scene_.materials[material].doubleSided) return {-1, hit->triangle};
-    const double distance = length(hit->position - eye);
-    return {distance / (distance + 0.1 * size()), hit->triangle};
+    const std::uint32_t triangle = caster_.nearest(Vec3f(eye), Vec3f(direction), kNone, repeats);
+    if (triangle == kNone) return {};
+    const Hit hit = caster_.intersect(triangle, Vec3f(eye), Vec3f(direction));
+    if (hit.back && !scene_.materials[hit.material].doubleSided) return {-1, triangle};
+    const double distance = length(hit.position - eye);
+    return {distance / (distance + 0.1 * size()), triangle};
   }
 
   struct Score {

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
-#include "tracer/optics/specular_table.h"
 
 namespace lucarne {
 
@@ -41,10 +41,9 @@ Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell
 Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const LobeCell> cells,
                       std::span<const Rgb> values, Rgb E) {
   const float cosine = std::clamp(dot(view.normal, view.toEye), 0.f, 1.f);
-  const Vec2f sb = SpecularTable::instance().scaleBias(cosine, bsdf.alpha);
-  const Rgb rho = bsdf.f0 * sb.x + bsdf.f90 * sb.y;
-  const Rgb base = bsdf.diffuse * (std::numbers::inv_pi_v<float> * (1.f - maxComponent(rho)));
-  return base * E + rho * mirroredRadiance(view, bsdf.alpha, cells, values, E);
+  const CoatAlbedo coat = Coat(bsdf).albedo(cosine);
+  const Rgb diffuse = (bsdf.diffuse * coat.passed() + coat.more()) * std::numbers::inv_pi_v<float>;
+  return diffuse * E + coat.once * mirroredRadiance(view, bsdf.alpha, cells, values, E);
 }
 
 }  // namespace lucarne

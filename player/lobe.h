@@ -1,9 +1,10 @@
 // How light maps become radiance toward the eye: the reference that the shaders follow, for tests and for tools.
 //
 // Exact radiance is Lo = Le + ∫ f(wi, wo)·Li·cos dwi. The maps hold B_ψ = ∫_cell Li·cos dwi for each cell of the side,
-// and E = Σ B_ψ. With the BSDF of bsdf.h, ρ the directional albedo of its coat and c that of its base:
+// and E = Σ B_ψ. With the BSDF of bsdf.h, c the albedo of its base and ρ = ρ₁ + ρ_m that of its coat, after one bounce
+// among its facets and after more (coat.h):
 //
-//   Lo = Le + c/π · (1 − max ρ(wo)) · E + ρ(wo) · (Σ B_ψ w_ψ) / (Σ C_ψ w_ψ)
+//   Lo = Le + (c·(1 − max ρ(wo)) + ρ_m(wo))/π · E + ρ₁(wo) · (Σ B_ψ w_ψ) / (Σ C_ψ w_ψ)
 //
 // Base: f = c/π·(1 − r(wi))(1 − r(wo))/(1 − r̄) with the part that depends on wi replaced by its mean over the
 // hemisphere, ∫(1 − r(wi))·cos dwi/π = 1 − r̄. Exact for constant light.

@@ -38,14 +38,18 @@ GlVertexArray vertexLayout(const GlBuffer& vertices) {
 GlTexture uploadSpecularTable() {
   constexpr int n = SpecularTable::kSize;
   const SpecularTable& table = SpecularTable::instance();
-  std::vector<Vec2f> nodes;
+  std::vector<Vec3f> nodes;
   for (int j = 0; j < n; ++j) {
     const float roughness = static_cast<float>(j) / (n - 1);
-    for (int i = 0; i < n; ++i)
-      nodes.push_back(table.scaleBias(static_cast<float>(i) / (n - 1), roughness * roughness));
+    const SpecularTable::Row row = table.row(roughness * roughness);
+    const Vec2f mean = row.meanScaleBias();
+    for (int i = 0; i < n; ++i) {
+      const Vec2f sb = row.scaleBias(static_cast<float>(i) / (n - 1));
+      nodes.push_back({sb.x, sb.y, mean.x + mean.y});
+    }
   }
-  GlTexture texture = makeTexture({GL_TEXTURE_2D, GL_RG32F, 1, n, n, 1});
-  glTextureSubImage2D(texture.get(), 0, 0, 0, n, n, GL_RG, GL_FLOAT, nodes.data());
+  GlTexture texture = makeTexture({GL_TEXTURE_2D, GL_RGB32F, 1, n, n, 1});
+  glTextureSubImage2D(texture.get(), 0, 0, 0, n, n, GL_RGB, GL_FLOAT, nodes.data());
   return texture;
 }
 

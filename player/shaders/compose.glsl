@@ -31,14 +31,18 @@ vec3 outgoingRadiance(Side side, Material m, vec3 n, vec4 lobe) {
 
   float cosine = clamp(dot(n, -normalize(v.fromEye)), 0.0, 1.0);
   vec2 node = vec2(cosine, roughness) * vec2(textureSize(specularTable, 0) - 1) + 0.5;
-  vec2 scaleBias = textureLod(specularTable, node / vec2(textureSize(specularTable, 0)), 0.0).rg;
+  vec3 table = textureLod(specularTable, node / vec2(textureSize(specularTable, 0)), 0.0).rgb;
   vec3 dielectric = min(m.dielectric.x * m.specularColorFactor.rgb, vec3(1)) * m.specularColorFactor.a;
   vec3 f0 = mix(dielectric, base, metallic);  // as makeBsdf() of tracer/optics/surface.h
   float f90 = mix(m.specularColorFactor.a, 1.0, metallic);
-  vec3 rho = f0 * scaleBias.x + f90 * scaleBias.y;
+  vec3 once = f0 * table.x + f90 * table.y;  // the coat, as coat.h
+  vec3 meanFresnel = f0 + (f90 - f0) / 21.0;
+  vec3 multiple = meanFresnel * meanFresnel * table.z / (1.0 - meanFresnel * (1.0 - table.z));
+  vec3 more = multiple * max(0.0, 1.0 - table.x - table.y);
+  vec3 rho = once + more;
 
   vec3 E = irradianceAt(side);
-  vec3 diffuse = base * ((1.0 - metallic) / kPi * (1.0 - max(rho.r, max(rho.g, rho.b))));
+  vec3 diffuse = (base * ((1.0 - metallic) * max(0.0, 1.0 - max(rho.r, max(rho.g, rho.b)))) + more) / kPi;
   vec3 mirrored = (side.flags & kDirections) != 0u && lobe.a > 0.0 ? lobe.rgb * (mapUnit / lobe.a) : E / kPi;
-  return Le + diffuse * E + rho * mirrored;
+  return Le + diffuse * E + once * mirrored;
 }

@@ -28,7 +28,7 @@ struct Material {
 layout(std430, binding = 0) readonly buffer SideBlock { Side sideRecords[]; };
 layout(std430, binding = 1) readonly buffer MaterialBlock { Material materials[]; };
 
-layout(binding = 3) uniform sampler2D specularTable;  // x: cosθ, y: √α, values at texel centres
+layout(binding = 3) uniform sampler2D specularTable;  // at x: cosθ, y: √α: scale, bias, mean of their sum over the hemisphere
 #ifdef TEXTURED
 layout(binding = 4) uniform sampler2D baseColorTexture;
 layout(binding = 5) uniform sampler2D metallicRoughnessTexture;

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "player/cell_tables.h"
+#include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
-#include "tracer/optics/specular_table.h"
 
 namespace lucarne {
 namespace {
@@ -50,8 +50,7 @@ TEST(Lobe, ConstantLightGivesItsRadianceTimesTheAlbedo) {
         const Vec3f toEye = directionAt(0.0265 * i, 2.4 * i);
         const Bsdf bsdf = coatOnly(exponent);
         const Rgb Lo = reflectedRadiance({{0, 0, 1}, toEye, count}, bsdf, cells, values, L * std::numbers::pi_v<float>);
-        const Vec2f sb = SpecularTable::instance().scaleBias(toEye.z, bsdf.alpha);
-        const Rgb expected = L * (bsdf.f0 * sb.x + bsdf.f90 * sb.y);
+        const Rgb expected = L * Coat(bsdf).albedo(toEye.z).total;
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lo[c], expected[c], 1e-4f * expected[c]);
       }
     }

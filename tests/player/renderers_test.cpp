@@ -6,8 +6,8 @@
 #include "player/offscreen.h"
 #include "tests/player/gl_available.h"
 #include "tests/player/synthetic_maps.h"
+#include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
-#include "tracer/optics/specular_table.h"
 #include "tracer/optics/surface.h"
 
 namespace lucarne {
@@ -139,8 +139,7 @@ double worstHighlight(const BakedScene& baked, float L, const CosineAt& cosineAt
       const double cosine = cosineAt(x, y);
       if (seen.x <= 0 || cosine < 0.15) continue;
       ++shown;
-      const Vec2f sb = SpecularTable::instance().scaleBias(static_cast<float>(cosine), bsdf.alpha);
-      const Rgb expected = (bsdf.f0 * sb.x + bsdf.f90 * sb.y) * L;
+      const Rgb expected = Coat(bsdf).albedo(static_cast<float>(cosine)).total * L;
       for (int c = 0; c < 3; ++c) worst = std::max<double>(worst, std::abs(seen[c] / expected[c] - 1));
     }
   }

@@ -28,15 +28,13 @@ Bsdf glossy(float alpha, Rgb diffuse, float f0) {
 std::vector<Bsdf> bsdfs() {
   Bsdf lambert;
   lambert.diffuse = {0.8f, 0.5f, 0.2f};
-  return {lambert,
-          glossy(1.f, Rgb(0.f), 0.9f),
-          glossy(0.4f, Rgb(0.5f), 0.04f),
-          glossy(alphaFromPhong(10), {0.3f, 0.2f, 0.1f}, 0.2f),
-          glossy(0.1f, Rgb(0.7f), 0.5f)};
+  return {lambert, glossy(1.f, Rgb(0.f), 0.9f), glossy(0.4f, Rgb(0.5f), 0.04f),
+          glossy(alphaFromPhong(10), {0.3f, 0.2f, 0.1f}, 0.2f), glossy(0.1f, Rgb(0.7f), 0.5f)};
 }
 
 std::vector<Vec3f> directions() {
-  return {{0, 0, 1}, normalize(Vec3f{0.5f, 0.2f, 0.8f}), normalize(Vec3f{-0.9f, 0.1f, 0.3f}), normalize(Vec3f{1, 1, 0.1f})};
+  return {
+      {0, 0, 1}, normalize(Vec3f{0.5f, 0.2f, 0.8f}), normalize(Vec3f{-0.9f, 0.1f, 0.3f}), normalize(Vec3f{1, 1, 0.1f})};
 }
 
 std::size_t binOf(Vec3f w) {
@@ -79,7 +77,8 @@ double samplerP(const Bsdf& b, Vec3f wi, double pdfPower) {
 TEST(Bsdf, SamplesFollowTheirDensity) {
   const double significance = 1e-4 / static_cast<double>(bsdfs().size() * directions().size());
   for (std::size_t k = 0; k < bsdfs().size(); ++k)
-    for (const Vec3f wi : directions()) EXPECT_GT(samplerP(bsdfs()[k], wi, 1), significance) << "bsdf " << k << " cos " << wi.z;
+    for (const Vec3f wi : directions())
+      EXPECT_GT(samplerP(bsdfs()[k], wi, 1), significance) << "bsdf " << k << " cos " << wi.z;
 }
 
 // The test of the tester.
@@ -132,6 +131,14 @@ TEST(Bsdf, NeverReflectsMoreThanItReceives) {
     for (const float alpha : {0.001f, 0.05f, 0.3f, 1.f})
       for (const float c : {0.001f, 0.1f, 0.5f, 1.f})
         EXPECT_LE(maxComponent(albedo(glossy(alpha, Rgb(1.f), f0), {std::sqrt(1 - c * c), 0, c})), 1.0f + 1e-4f);
+}
+
+// The white furnace: whatever the roughness and the angle.
+TEST(Bsdf, AWhiteMetalReflectsEverything) {
+  for (const float alpha : {0.001f, 0.05f, alphaFromPhong(10), alphaFromPhong(1), 1.f})
+    for (const float c : {0.05f, 0.3f, 0.7f, 1.f})
+      EXPECT_NEAR(albedo(glossy(alpha, Rgb(0.f), 1.f), {std::sqrt(1 - c * c), 0, c}).y, 1.f, 1e-5f)
+          << alpha << " " << c;
 }
 
 TEST(Bsdf, DielectricWithSpecularZeroIsExactlyLambert) {

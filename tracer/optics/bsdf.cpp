@@ -1,36 +1,14 @@
 #include "tracer/optics/bsdf.h"
 
+#include "tracer/optics/coat.h"
 #include "tracer/optics/ggx.h"
-#include "tracer/optics/specular_table.h"
 
 namespace lucarne {
 namespace {
 
-/// The coat at one roughness: its row of the table is found once for all directions of a hit.
-class Coat {
- public:
-  explicit Coat(const Bsdf& b) : b_(b), row_(SpecularTable::instance().row(b.alpha)) {}
-
-  Rgb albedo(float cosTheta) const {
-    const Vec2f sb = row_.scaleBias(cosTheta);
-    return b_.f0 * sb.x + b_.f90 * sb.y;
-  }
-  float mean() const {
-    const Vec2f sb = row_.meanScaleBias();
-    return std::min(maxComponent(b_.f0 * sb.x + b_.f90 * sb.y), 0.999f);
-  }
-
- private:
-  const Bsdf& b_;
-  SpecularTable::Row row_;
-};
-
-/// What the coat lets through to the base.
-float passed(Rgb coatAlbedo) { return std::max(0.f, 1.f - maxComponent(coatAlbedo)); }
-
-/// Probability of sampling the coat: its share of the albedo. Never 0 or 1 while both lobes reflect.
-float coatProbability(const Bsdf& b, Rgb coat, float base) {
-  const float s = mean(coat), d = mean(b.diffuse) * base;
+/// Probability of sampling the coat's single bounce: its share of the albedo. Never 0 or 1 while both kinds reflect.
+float coatProbability(const Bsdf& b, const CoatAlbedo& in) {
+  const float s = mean(in.once), d = mean(b.diffuse) * in.passed() + mean(in.more());
   return d <= 0 ? 1.f : s / (s + d);
 }
 
@@ -40,19 +18,18 @@ struct Evaluation {
 };
 
 /// G1 and G2 share Λ(wi); D is common to value and density.
-Evaluation evaluateBoth(const Bsdf& b, const Coat& coat, Vec3f wi, Vec3f wo, Rgb coatIn) {
-  const float baseIn = passed(coatIn);
+Evaluation evaluateBoth(const Bsdf& b, const Coat& coat, Vec3f wi, Vec3f wo, const CoatAlbedo& in) {
   const Vec3f h = normalize(wi + wo);
   const float d = ggxD(h.z, b.alpha) / (4.f * wi.z);
   const float lambdaIn = ggxLambda(wi.z, b.alpha), lambdaOut = ggxLambda(wo.z, b.alpha);
   const float c = schlick(dot(wi, h));
   const Rgb fresnel = b.f0 * (1.f - c) + b.f90 * c;
-  const Rgb specular = fresnel * (d / ((1.f + lambdaIn + lambdaOut) * wo.z));
-  const float p = coatProbability(b, coatIn, baseIn);
-  const float coatPdf = d / (1.f + lambdaIn);
-  if (maxComponent(b.diffuse) <= 0) return {specular, coatPdf};  // a metal: p = 1
-  const Rgb base = b.diffuse * (baseIn * passed(coat.albedo(wo.z)) / (kPi * (1.f - coat.mean())));
-  return {specular + base, p * coatPdf + (1 - p) * pdfCosineHemisphere(wo)};
+  const Rgb once = fresnel * (d / ((1.f + lambdaIn + lambdaOut) * wo.z));
+  const CoatAlbedo out = coat.albedo(wo.z);
+  const Rgb more = coat.multiple() * (in.lost * out.lost / coat.meanLost());
+  const Rgb base = b.diffuse * (in.passed() * out.passed() / coat.meanPassed());
+  const float p = coatProbability(b, in);
+  return {once + (more + base) * (1.f / kPi), p * d / (1.f + lambdaIn) + (1 - p) * pdfCosineHemisphere(wo)};
 }
 
 Evaluation evaluateBoth(const Bsdf& b, Vec3f wi, Vec3f wo) {
@@ -60,12 +37,12 @@ Evaluation evaluateBoth(const Bsdf& b, Vec3f wi, Vec3f wo) {
   return evaluateBoth(b, coat, wi, wo, coat.albedo(wi.z));
 }
 
-std::optional<BsdfSample> sampleCoated(const Bsdf& b, const Coat& coat, Rgb coatIn, Vec3f wi, Vec3f u) {
-  const float p = coatProbability(b, coatIn, passed(coatIn));
+std::optional<BsdfSample> sampleCoated(const Bsdf& b, const Coat& coat, const CoatAlbedo& in, Vec3f wi, Vec3f u) {
+  const float p = coatProbability(b, in);
   const Vec3f wo =
       u.x < p ? reflect(wi, sampleVisibleNormal(wi, b.alpha, {u.y, u.z})) : sampleCosineHemisphere({u.y, u.z});
   if (wo.z <= 1e-6f) return std::nullopt;
-  const Evaluation e = evaluateBoth(b, coat, wi, wo, coatIn);
+  const Evaluation e = evaluateBoth(b, coat, wi, wo, in);
   if (!(e.pdf > 0)) return std::nullopt;
   return BsdfSample{wo, e.f * (wo.z / e.pdf), e.pdf};
 }
@@ -94,15 +71,15 @@ SampleWithAlbedo sampleWithAlbedo(const Bsdf& b, Vec3f wi, Vec3f u) {
     return {BsdfSample{wo, b.diffuse, pdfCosineHemisphere(wo)}, b.diffuse};
   }
   const Coat coat(b);
-  const Rgb coatIn = coat.albedo(wi.z);
-  return {sampleCoated(b, coat, coatIn, wi, u), coatIn + b.diffuse * passed(coatIn)};
+  const CoatAlbedo in = coat.albedo(wi.z);
+  return {sampleCoated(b, coat, in, wi, u), in.total + b.diffuse * in.passed()};
 }
 
 Rgb albedo(const Bsdf& b, Vec3f wi) {
   if (wi.z <= 0) return {};
   if (b.lambert()) return b.diffuse;
-  const Rgb coat = Coat(b).albedo(wi.z);
-  return coat + b.diffuse * passed(coat);
+  const CoatAlbedo in = Coat(b).albedo(wi.z);
+  return in.total + b.diffuse * in.passed();
 }
 
 }  // namespace lucarne

@@ -3,7 +3,8 @@
 // Both directions point away from the surface. For photons `wi` looks back to where the light came from and `wo` is
 // the sampled way on; the BSDF is reciprocal, so camera paths may use it either way round. f has no cosine in it.
 //
-//   f = f_s + (c/π) · (1 − r(wi)) · (1 − r(wo)) / (1 − r̄),   f_s = F·D·G2/(4 cos cos),  F = F0 + (F90 − F0)(1 − wi·h)⁵
+//   f = f_s + f_m + (c/π) · (1 − r(wi)) · (1 − r(wo)) / (1 − r̄)
+//   f_s = F·D·G2/(4 cos cos),  F = F0 + (F90 − F0)(1 − wi·h)⁵,  f_m: light that meets several facets (coat.h)
 //
 // r = largest component of the coat's directional albedo ρ, r̄ its mean over the hemisphere: what the coat reflects does
 // not reach the base (Kelemen and Szirmay-Kalos 2001), which keeps reciprocity and makes the albedo exactly a(wi) =
