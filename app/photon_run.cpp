@@ -31,12 +31,14 @@ class Worker {
  public:
   Worker(const Run& run, const Tallies& tallies) : run_(run), sink_(run.map, run.layout, run.directions, run.options.part, tallies) {}
 
-  void take(std::atomic<std::uint64_t>& next, std::uint64_t end) {
+  /// `taken` counts from the beginning of the range: an index past its end may not fit 64 bits.
+  void take(std::atomic<std::uint64_t>& taken, IndexRange range) {
     const FlushDenormals mode;
     for (;;) {
-      const std::uint64_t begin = next.fetch_add(kChunk, std::memory_order_relaxed);
-      if (begin >= end) break;
-      tracePhotons(run_.scene, {begin, std::min(begin + kChunk, end)}, run_.options.seed, run_.options.limits, sink_, ledger_);
+      const std::uint64_t offset = taken.fetch_add(kChunk, std::memory_order_relaxed);
+      if (offset >= range.size()) break;
+      const std::uint64_t begin = range.begin + offset, end = begin + std::min(kChunk, range.size() - offset);
+      tracePhotons(run_.scene, {begin, end}, run_.options.seed, run_.options.limits, sink_, ledger_);
     }
     sink_.flush();
   }
@@ -97,10 +99,10 @@ std::uint64_t runBatches(const Run& run, IndexRange range, const std::vector<con
   std::uint64_t done = range.begin;
   while (done < range.end) {
     const std::uint64_t end = done + std::min(batch.next(), range.end - done);
-    std::atomic<std::uint64_t> next{done};
+    std::atomic<std::uint64_t> taken{0};
     const auto start = std::chrono::steady_clock::now();
     arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, workers.size(), [&](std::size_t w) { workers[w]->take(next, end); }, tbb::simple_partitioner());
+      tbb::parallel_for(std::size_t{0}, workers.size(), [&](std::size_t w) { workers[w]->take(taken, {done, end}); }, tbb::simple_partitioner());
     });
     batch.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     done = end;

@@ -233,7 +233,9 @@ TEST_P(PhotonIndices, AreTracedOnceEachWhateverTheThreads) {
   EXPECT_EQ(one.tallies.contentHash(), left.tallies.contentHash());
   EXPECT_NE(one.tallies.contentHash(), RangeRun(scene, {0, end - begin}, 1).tallies.contentHash());
 }
-INSTANTIATE_TEST_SUITE_P(About, PhotonIndices, testing::Values(std::uint64_t{1} << 32, std::uint64_t{1} << 40));
+// The last: 2^64 − 1, which no range can hold.
+INSTANTIATE_TEST_SUITE_P(About, PhotonIndices,
+                         testing::Values(std::uint64_t{1} << 32, std::uint64_t{1} << 40, ~std::uint64_t{0}));
 
 TEST(PhotonIndex, AtTheFortiethPowerOfTwoReadTheFurnace) {
   const Scene scene = furnace(1, 0.5f, Rgb(100.f));
