@@ -79,16 +79,18 @@ void planMaps(const ResolveInput& in, LightMaps& maps) {
   maps.directional.resize(entries);
 }
 
-/// Standard error of a sum of N independent photons: Var(Σx) ≈ Σx² − (Σx)²/N, luminance, in the same units as E.
+/// Standard error of a sum of N independent photons: Var(Σx) ≈ (Σx² − (Σx)²/N)·N/(N − 1), luminance, in the same units as
+/// E. One photon tells nothing about its spread; it is taken for one of many.
 void fillStatistics(const ResolveInput& in, const TallySide& side, const SideResolver& resolver, double scale,
                     const std::vector<Rgbd>& irradiance, const SideMaps& out, LightMaps& maps) {
   const auto pairs = statisticsOf(in, side);
   const std::vector<double> squares = resolver.filterSquares(pairs, 1);
-  const double unitsToFraction = 1 / static_cast<double>(kFixedPointOne);
+  const double unitsToFraction = 1 / static_cast<double>(kFixedPointOne), n = static_cast<double>(in.photons);
   for (std::size_t t = 0; t < irradiance.size(); ++t) {
     const double e = luminance(irradiance[t]);
     // `scale` turns units into lx; m2 holds squares of fractions in units, so one factor of 2^24 less.
-    const double variance = squares[t] * scale * scale / unitsToFraction - e * e / static_cast<double>(in.photons);
+    const double square = squares[t] * scale * scale / unitsToFraction;
+    const double variance = in.photons > 1 ? (square - e * e / n) * (n / (n - 1)) : square;
     maps.relativeError[out.firstTexel + t] = e > 0 ? static_cast<float>(std::sqrt(std::max(0.0, variance)) / e) : 0.f;
     maps.photons[out.firstTexel + t] = static_cast<float>(pairs[kStatisticsChannels * t]);
   }

@@ -176,6 +176,27 @@ TEST(OneTexelAChart, ReadsTheFurnace) {
   });
 }
 
+TEST(OnePhoton, BringsAllTheFluxAndIsNoCertainty) {
+  const BakedScene coarse(furnace(1, 0, Rgb(100.f)), test::quickOptions(1, 1e-3));
+  double flux = 0;
+  forEachTexel(coarse, [&](const SideMaps&, std::uint64_t t, double a) {
+    flux += a * static_cast<double>(coarse.baked.maps.irradiance[t].y);
+    if (coarse.baked.maps.photons[t] > 0) {
+      EXPECT_NEAR(coarse.baked.maps.relativeError[t], 1, 1e-6);
+    }
+  });
+  EXPECT_NEAR(flux / coarse.baked.emittedFlux, 1, 1e-6);
+  const BakedScene fine(furnace(1, 0.9f, Rgb(100.f)), test::quickOptions(1, 8));
+  int lit = 0;
+  for (std::size_t t = 0; t < fine.baked.maps.irradiance.size(); ++t) {
+    ASSERT_TRUE(std::isfinite(fine.baked.maps.irradiance[t].y) && std::isfinite(fine.baked.maps.relativeError[t]));
+    if (fine.baked.maps.irradiance[t].y <= 0) continue;
+    ++lit;
+    EXPECT_GT(fine.baked.maps.relativeError[t], 0.1f);
+  }
+  EXPECT_GT(lit, 0);
+}
+
 TEST(FarFromTheOrigin, ASceneGivesTheSameLight) {
   // Coordinates that 1e7 m leaves exact: the same bits.
   const auto room = [](Vec3d at, Vec3d grain) {
