@@ -6,12 +6,15 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <cmath>
 #include <limits>
 
 #include "base/error.h"
 
 namespace lucarne {
 namespace {
+
+constexpr int kMostRepeats = 4;
 
 std::string defaultIsa() {
 #if defined(__x86_64__)
@@ -36,6 +39,13 @@ void castRay(RTCScene scene, RTCRayHit& ray) {
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &ray);
 #endif
+}
+
+/// The barycentric coordinate that keeps `distance` from every edge: distance / smallest height, which is twice the
+/// area over the longest edge. At most ¼, so that something is left of a needle.
+float insetOf(Vec3f e1, Vec3f e2, double twiceArea, double distance) {
+  const double longest = static_cast<double>(std::max({length(e1), length(e2), length(e2 - e1)}));
+  return static_cast<float>(std::min(distance * longest, 0.25 * twiceArea) / std::max(twiceArea, 1e-300));
 }
 
 }  // namespace
@@ -74,9 +84,10 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
   for (std::uint32_t i = 0; i < n; ++i) {
     for (const std::uint32_t v : scene.triangles[i].v) *indices++ = v;
     const Vec3d scaled = scene.scaledNormal(i);
-    triangles_.push_back({scene.corner(i, 0), scene.corner(i, 1) - scene.corner(i, 0),
-                          scene.corner(i, 2) - scene.corner(i, 0), Vec3f(normalize(scaled)),
-                          scene.triangles[i].material, !scene.smooth.empty() && scene.smooth[i] != 0});
+    const Vec3f e1 = scene.corner(i, 1) - scene.corner(i, 0), e2 = scene.corner(i, 2) - scene.corner(i, 0);
+    triangles_.push_back({scene.corner(i, 0), e1, e2, Vec3f(normalize(scaled)), scene.triangles[i].material,
+                          insetOf(e1, e2, length(scaled), static_cast<double>(kLeave)),
+                          !scene.smooth.empty() && scene.smooth[i] != 0});
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(embreeScene_, geometry);
@@ -86,6 +97,11 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
 }
 
 std::uint32_t RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const {
+  return cast(origin, direction, 0, from, repeats);
+}
+
+std::uint32_t RayCaster::cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from,
+                              std::uint64_t& repeats) const {
   RTCRayHit ray;
   ray.ray.org_x = origin.x;
   ray.ray.org_y = origin.y;
@@ -93,11 +109,10 @@ std::uint32_t RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t fr
   ray.ray.dir_x = direction.x;
   ray.ray.dir_y = direction.y;
   ray.ray.dir_z = direction.z;
-  ray.ray.tnear = 0;
+  ray.ray.tnear = tnear;
   ray.ray.time = 0;
   ray.ray.mask = 0xffffffffu;
   ray.ray.flags = 0;
-  constexpr int kMostRepeats = 4;
   for (int attempt = 0; attempt < kMostRepeats; ++attempt) {
     ray.ray.tfar = std::numeric_limits<float>::infinity();
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -109,6 +124,46 @@ std::uint32_t RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t fr
     ray.ray.tnear = ray.ray.tfar * (1 + 0x1p-22f) + 0x1p-24f;
   }
   return kNone;
+}
+
+std::uint32_t RayCaster::atBack(std::uint32_t back, Vec3f origin, Vec3f direction, std::uint32_t from,
+                                std::uint64_t& repeats) const {
+  Hit hit = intersect(back, origin, direction);
+  for (int attempt = 0; attempt < kMostRepeats; ++attempt) {
+    const Vec3d path = hit.position - Vec3d(origin);
+    if (!hit.back || std::abs(dot(Vec3d(hit.n), path)) > kTouching) break;
+    const auto t = static_cast<float>(std::max(0.0, dot(path, Vec3d(direction))));
+    const std::uint32_t next = cast(origin, direction, t * (1 + 0x1p-18f) + 0x1p-22f, from, repeats);
+    if (next == kNone) return kNone;
+    hit = intersect(next, origin, direction);
+  }
+  return hit.back ? frontOn(hit, direction) : hit.triangle;
+}
+
+/// The triangle with the smallest index, so that the answer does not depend on the order of Embree's tree.
+std::uint32_t RayCaster::frontOn(const Hit& back, Vec3f direction) const {
+  struct Search {
+    const RayCaster& caster;
+    const Hit& back;
+    Vec3f direction;
+    std::uint32_t found = kNone;
+
+    static bool visit(RTCPointQueryFunctionArguments* arguments) {
+      Search& self = *static_cast<Search*>(arguments->userPtr);
+      const TriangleData& t = self.caster.triangles_[arguments->primID];
+      if (arguments->primID >= self.found || !(dot(t.n, self.direction) < 0)) return false;
+      const Hit foot = self.caster.intersect(arguments->primID, Vec3f(self.back.position + Vec3d(t.n)), -t.n);
+      if (length(foot.position - self.back.position) <= kTouching) self.found = arguments->primID;
+      return false;  // the radius stays
+    }
+  };
+  Search search{*this, back, direction};
+  RTCPointQuery query{static_cast<float>(back.position.x), static_cast<float>(back.position.y),
+                      static_cast<float>(back.position.z), 0, static_cast<float>(kTouching)};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(embreeScene_, &query, &context, &Search::visit, &search);
+  return search.found != kNone ? search.found : back.triangle;
 }
 
 }  // namespace lucarne

@@ -41,6 +41,13 @@ class RayCaster {
   /// there is none. `repeats` counts the rare rays that met `from` again by rounding and were cast on.
   std::uint32_t nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const;
 
+  /// What a ray meets for which nearest() found the back of a one-sided triangle. Triangles that touch are told apart:
+  /// a ray that starts on the triangle (a lamp that touches a wall) starts in front of it and goes on, and where the
+  /// front of another lies on the back (rooms wall to wall, both faces of a wall without thickness) it meets that
+  /// front. `back` itself where neither is so; kNone where the ray goes on and there is nothing.
+  std::uint32_t atBack(std::uint32_t back, Vec3f origin, Vec3f direction, std::uint32_t from,
+                       std::uint64_t& repeats) const;
+
   /// Where a ray that is known to meet the triangle does so.
   Hit intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const;
 
@@ -56,12 +63,16 @@ class RayCaster {
   struct alignas(64) TriangleData {  // one cache line a triangle
     Vec3f p0, e1, e2, n;
     std::uint32_t material;
+    float inset;  // smallest barycentric coordinate of a hit
     bool smooth;
   };
   /// Coordinates are within about one unit of the origin (scene.h), so one absolute offset serves: a float position is
   /// off by up to 2^-24, Embree's plane distance by a few times that.
   static constexpr float kLeave = 0x1p-21f;
+  static constexpr double kTouching = 0x1p-20;  // surfaces nearer than this are taken to touch
   void build(const Scene& scene, const RayCasterOptions& options);
+  std::uint32_t cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from, std::uint64_t& repeats) const;
+  std::uint32_t frontOn(const Hit& back, Vec3f direction) const;
 
   RTCDeviceTy* device_ = nullptr;
   RTCSceneTy* embreeScene_ = nullptr;
@@ -70,14 +81,15 @@ class RayCaster {
 };
 
 /// Möller and Trumbore 1997 in double, known to hit: results are clamped into the triangle instead of tested, a ray in
-/// its plane (0/0, 1/0) too: std::max(0, NaN) is 0. Side by the sign of direction · n.
+/// its plane (0/0, 1/0) too: std::max(inset, NaN) is inset. Side by the sign of direction · n. Hits stay off the edges
+/// by the inset, or a ray that leaves in a corner could start, by rounding, on the other side of the neighbour.
 inline Hit RayCaster::intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const {
   const TriangleData& t = triangles_[triangle];
   const Vec3d p0(t.p0), e1(t.e1), e2(t.e2), d(direction), s = Vec3d(origin) - p0;
   const Vec3d p = cross(d, e2);
-  const double inv = 1 / dot(e1, p);
-  const double b1 = std::min(std::max(0.0, dot(s, p) * inv), 1.0);
-  const double b2 = std::min(std::max(0.0, dot(d, cross(s, e1)) * inv), 1.0 - b1);
+  const double inv = 1 / dot(e1, p), inset(t.inset);
+  const double b1 = std::min(std::max(inset, dot(s, p) * inv), 1.0 - 2 * inset);
+  const double b2 = std::min(std::max(inset, dot(d, cross(s, e1)) * inv), 1.0 - inset - b1);
   return {triangle,
           {static_cast<float>(b1), static_cast<float>(b2)},
           p0 + e1 * b1 + e2 * b2,
