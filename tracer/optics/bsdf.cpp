@@ -37,7 +37,7 @@ Evaluation evaluateBoth(const Bsdf& b, Vec3f wi, Vec3f wo) {
   return evaluateBoth(b, coat, wi, wo, coat.albedo(wi.z));
 }
 
-std::optional<BsdfSample> sampleCoated(const Bsdf& b, const Coat& coat, const CoatAlbedo& in, Vec3f wi, Vec3f u) {
+std::optional<BsdfSample> sampleDirection(const Bsdf& b, const Coat& coat, const CoatAlbedo& in, Vec3f wi, Vec3f u) {
   const float p = coatProbability(b, in);
   const Vec3f wo =
       u.x < p ? reflect(wi, sampleVisibleNormal(wi, b.alpha, {u.y, u.z})) : sampleCosineHemisphere({u.y, u.z});
@@ -70,9 +70,13 @@ SampleWithAlbedo sampleWithAlbedo(const Bsdf& b, Vec3f wi, Vec3f u) {
     if (wo.z <= 0) return {std::nullopt, b.diffuse};
     return {BsdfSample{wo, b.diffuse, pdfCosineHemisphere(wo)}, b.diffuse};
   }
-  const Coat coat(b);
+  return sampleCoated(b, Coat(b), wi, u);
+}
+
+SampleWithAlbedo sampleCoated(const Bsdf& b, const Coat& coat, Vec3f wi, Vec3f u) {
+  if (wi.z <= 0) return {};
   const CoatAlbedo in = coat.albedo(wi.z);
-  return {sampleCoated(b, coat, in, wi, u), in.total + b.diffuse * in.passed()};
+  return {sampleDirection(b, coat, in, wi, u), in.total + b.diffuse * in.passed()};
 }
 
 Rgb albedo(const Bsdf& b, Vec3f wi) {

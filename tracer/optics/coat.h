@@ -57,4 +57,7 @@ class Coat {
   float meanLost_, meanPassed_;
 };
 
+/// sampleWithAlbedo() of a surface that is not Lambert, with its coat at hand.
+SampleWithAlbedo sampleCoated(const Bsdf& bsdf, const Coat& coat, Vec3f wi, Vec3f u);
+
 }  // namespace lucarne

@@ -1,5 +1,7 @@
 #include "tracer/optics/surface.h"
 
+#include <algorithm>
+
 #include "tracer/optics/ggx.h"
 #include "tracer/optics/texture.h"
 
@@ -30,22 +32,35 @@ SurfaceTable::SurfaceTable(const Scene& scene) : scene_(&scene) {
   for (const Material& m : scene.materials) {
     entries_.push_back({makeBsdf(m, m.baseColor, m.metallic, m.roughness),
                         bool(m.baseColorTexture) || bool(m.metallicRoughnessTexture), m.doubleSided});
+    const Entry& entry = entries_.back();
+    coats_.emplace_back();
+    if (!entry.textured && !entry.constant.lambert()) coats_.back().emplace(entry.constant);
+  }
+  const bool textured = std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+    return m.baseColorTexture || m.metallicRoughnessTexture || m.emissiveTexture;
+  });
+  if (!textured) return;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const std::vector<Vec2f>& set = i == 0 ? scene.uv0 : scene.uv1;
+    if (set.empty()) continue;
+    for (const Triangle& t : scene.triangles) corners_[i].push_back({set[t.v[0]], set[t.v[1]], set[t.v[2]]});
   }
 }
 
 Vec2f SurfaceTable::uv(const TextureUse& use, std::uint32_t triangle, Vec2f b) const {
-  const auto& set = use.uvSet == 0 ? scene_->uv0 : scene_->uv1;
+  const std::vector<Corners>& set = corners_[use.uvSet == 0 ? 0 : 1];
   if (set.empty()) return {};
-  const Triangle& t = scene_->triangles[triangle];
-  return set[t.v[0]] * (1 - b.x - b.y) + set[t.v[1]] * b.x + set[t.v[2]] * b.y;
+  const Corners& c = set[triangle];
+  return c[0] * (1 - b.x - b.y) + c[1] * b.x + c[2] * b.y;
 }
 
 Bsdf SurfaceTable::textured(std::uint32_t material, std::uint32_t triangle, Vec2f b) const {
   const Material& m = scene_->materials[material];
-  const Rgb base =
-      m.baseColor * lookUp(*scene_, m.baseColorTexture, uv(m.baseColorTexture, triangle, b), Encoding::srgb);
-  const Rgb mr =
-      lookUp(*scene_, m.metallicRoughnessTexture, uv(m.metallicRoughnessTexture, triangle, b), Encoding::linear);
+  const auto value = [&](const TextureUse& use, Encoding encoding) {
+    return use ? lookUp(*scene_, use, uv(use, triangle, b), encoding) : Rgb(1.f);
+  };
+  const Rgb base = m.baseColor * value(m.baseColorTexture, Encoding::srgb);
+  const Rgb mr = value(m.metallicRoughnessTexture, Encoding::linear);
   return makeBsdf(m, base, m.metallic * mr.z, m.roughness * mr.y);
 }
 

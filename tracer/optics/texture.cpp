@@ -1,5 +1,6 @@
 #include "tracer/optics/texture.h"
 
+#include <array>
 #include <cmath>
 
 #include "base/math.h"
@@ -39,11 +40,27 @@ float toTexels(float u, int n, Wrap wrap) {
   return u * static_cast<float>(n);
 }
 
-Rgb texel(const Image& image, int x, int y, Encoding encoding) {
+using DecodeTable = std::array<float, 256>;
+
+template <class F>
+DecodeTable tabulate(F&& value) {
+  DecodeTable table{};
+  for (std::size_t i = 0; i < table.size(); ++i) table[i] = value(static_cast<std::uint8_t>(i));
+  return table;
+}
+
+/// Value of each 8-bit code: a texel costs three loads.
+const DecodeTable& decodeTable(Encoding encoding) {
+  static const DecodeTable srgb = tabulate([](std::uint8_t code) { return srgbToLinear(code); });
+  static const DecodeTable linear =
+      tabulate([](std::uint8_t code) { return static_cast<float>(code) * (1.f / 255.f); });
+  return encoding == Encoding::srgb ? srgb : linear;
+}
+
+Rgb texel(const Image& image, int x, int y, const DecodeTable& decode) {
   const auto* p = image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                            static_cast<std::size_t>(x));
-  if (encoding == Encoding::srgb) return {srgbToLinear(p[0]), srgbToLinear(p[1]), srgbToLinear(p[2])};
-  return Rgb{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])} * (1.f / 255.f);
+  return {decode[p[0]], decode[p[1]], decode[p[2]]};
 }
 
 }  // namespace
@@ -55,14 +72,16 @@ Rgb lookUp(const Scene& scene, const TextureUse& use, Vec2f uv, Encoding encodin
   const Image& image = scene.images[texture.image];
   const Vec2f st = Vec2f{dot(use.rowU, uv), dot(use.rowV, uv)} + use.offset;
   const float shift = texture.nearest ? 0.f : 0.5f;
-  const float x = toTexels(st.x, image.width, texture.wrapS) - shift, y = toTexels(st.y, image.height, texture.wrapT) - shift;
+  const float x = toTexels(st.x, image.width, texture.wrapS) - shift,
+              y = toTexels(st.y, image.height, texture.wrapT) - shift;
+  const DecodeTable& decode = decodeTable(encoding);
   const int x0 = floorToInt(x), y0 = floorToInt(y);
   const int ix = wrapIndex(x0, image.width, texture.wrapS), iy = wrapIndex(y0, image.height, texture.wrapT);
-  if (texture.nearest) return texel(image, ix, iy, encoding);
+  if (texture.nearest) return texel(image, ix, iy, decode);
   const int jx = wrapIndex(x0 + 1, image.width, texture.wrapS), jy = wrapIndex(y0 + 1, image.height, texture.wrapT);
   const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  const Rgb top = texel(image, ix, iy, encoding) * (1 - fx) + texel(image, jx, iy, encoding) * fx;
-  const Rgb bottom = texel(image, ix, jy, encoding) * (1 - fx) + texel(image, jx, jy, encoding) * fx;
+  const Rgb top = texel(image, ix, iy, decode) * (1 - fx) + texel(image, jx, iy, decode) * fx;
+  const Rgb bottom = texel(image, ix, jy, decode) * (1 - fx) + texel(image, jx, jy, decode) * fx;
   return top * (1 - fy) + bottom * fy;
 }
 

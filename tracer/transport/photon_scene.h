@@ -1,6 +1,9 @@
 // What a photon needs to fly: geometry, surfaces and emitters of one scene, built once, read by all threads.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "tracer/optics/emitters.h"
 #include "tracer/optics/surface.h"
 #include "tracer/scene/scene.h"
@@ -12,7 +15,11 @@ class PhotonScene {
  public:
   /// `scene` must outlive this.
   explicit PhotonScene(const Scene& scene, const RayCasterOptions& options = {})
-      : scene_(scene), surfaces_(scene), emitters_(scene, surfaces_), rayCaster_(scene, options) {}
+      : scene_(scene), surfaces_(scene), emitters_(scene, surfaces_), rayCaster_(scene, options) {
+    if (scene.smooth.empty()) return;
+    for (const Triangle& t : scene.triangles)
+      cornerNormals_.push_back({scene.normals[t.v[0]], scene.normals[t.v[1]], scene.normals[t.v[2]]});
+  }
   PhotonScene(const PhotonScene&) = delete;
   PhotonScene& operator=(const PhotonScene&) = delete;
 
@@ -25,9 +32,8 @@ class PhotonScene {
   /// triangles and where the interpolated one turns its back on `wi`.
   Vec3f shadingNormal(const Hit& hit, Vec3f n, Vec3f wi) const {
     if (!hit.smooth) return n;
-    const Triangle& t = scene_.triangles[hit.triangle];
-    const Vec3f ns = normalize(scene_.normals[t.v[0]] * (1 - hit.b.x - hit.b.y) + scene_.normals[t.v[1]] * hit.b.x +
-                               scene_.normals[t.v[2]] * hit.b.y);
+    const std::array<Vec3f, 3>& corner = cornerNormals_[hit.triangle];
+    const Vec3f ns = normalize(corner[0] * (1 - hit.b.x - hit.b.y) + corner[1] * hit.b.x + corner[2] * hit.b.y);
     const Vec3f sided = hit.back ? -ns : ns;
     constexpr float kGrazing = 0.01f;
     return dot(sided, wi) > kGrazing && dot(sided, n) > kGrazing ? sided : n;
@@ -38,6 +44,8 @@ class PhotonScene {
   SurfaceTable surfaces_;
   EmitterTable emitters_;
   RayCaster rayCaster_;
+  // By triangle, side by side: one or two cache misses instead of four.
+  std::vector<std::array<Vec3f, 3>> cornerNormals_;
 };
 
 }  // namespace lucarne

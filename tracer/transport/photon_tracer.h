@@ -95,21 +95,17 @@ class PhotonPath {
   /// One segment and what happens at its end. False when the path is over.
   [[gnu::always_inline]] bool step(std::uint32_t event) {
     ++ledger_.rays;
-    const RayCaster& caster = scene_.rayCaster();
-    std::uint32_t triangle = caster.nearest(origin_, direction_, from_, ledger_.repeatedRays);
-    if (triangle == kNone) return escape();
-    Hit hit = caster.intersect(triangle, origin_, direction_);
-    if (blackBack(hit)) [[unlikely]] {
-      triangle = caster.atBack(triangle, origin_, direction_, from_, ledger_.repeatedRays);
-      if (triangle == kNone) return escape();
-      hit = caster.intersect(triangle, origin_, direction_);
-      if (blackBack(hit)) {
-        ++ledger_.hits;
-        path_.absorbed += fixed_;
-        return false;
-      }
+    const std::uint32_t triangle = scene_.rayCaster().nearest(origin_, direction_, from_, ledger_.repeatedRays);
+    if (triangle == kNone) {
+      ledger_.escaped += fixed_;
+      return false;
     }
     ++ledger_.hits;
+    const Hit hit = scene_.rayCaster().intersect(triangle, origin_, direction_);
+    if (hit.back && !scene_.surfaces().doubleSided(hit.material)) {  // an opaque, black back
+      path_.absorbed += fixed_;
+      return false;
+    }
     const Vec3f wi = -direction_, n = hit.back ? -hit.n : hit.n;
     const Vec3f ns = scene_.shadingNormal(hit, n, wi);
     const auto words = sampler_.words(event, Stream::scatter);
@@ -120,21 +116,12 @@ class PhotonPath {
     return true;
   }
 
-  /// Backs of one-sided triangles are opaque and black.
-  [[gnu::always_inline]] bool blackBack(const Hit& hit) const {
-    return hit.back && !scene_.surfaces().doubleSided(hit.material);
-  }
-  bool escape() {
-    ledger_.escaped += fixed_;
-    return false;
-  }
-
   [[gnu::always_inline]] bool scatter(const Hit& hit, const std::array<std::uint32_t, 4>& words, Vec3f wi, Vec3f n,
                                       Vec3f ns) {
     Bsdf scratch;
     const Bsdf& bsdf = scene_.surfaces().bsdf(hit.material, hit.triangle, hit.b, scratch);
     const Frame<float> frame(ns);
-    return bsdf.lambert() ? scatterDiffuse(bsdf, frame, words, wi, n) : scatterCoated(bsdf, frame, words, wi, n);
+    return bsdf.lambert() ? scatterDiffuse(bsdf, frame, words, wi, n) : scatterCoated(hit, bsdf, frame, words, wi, n);
   }
 
   /// Of a diffuse surface every way on weighs its albedo, and none is lost.
@@ -148,10 +135,12 @@ class PhotonPath {
     return goOn(onward, fixedOnward, toUnitFloat(words[3]), wi, n, frame.n);
   }
 
-  bool scatterCoated(const Bsdf& bsdf, const Frame<float>& frame, const std::array<std::uint32_t, 4>& words, Vec3f wi,
-                     Vec3f n) {
-    const SampleWithAlbedo s = sampleWithAlbedo(bsdf, frame.toLocal(wi),
-                                                {toUnitFloat(words[0]), toUnitFloat(words[1]), toUnitFloat(words[2])});
+  bool scatterCoated(const Hit& hit, const Bsdf& bsdf, const Frame<float>& frame,
+                     const std::array<std::uint32_t, 4>& words, Vec3f wi, Vec3f n) {
+    const Vec3f wiLocal = frame.toLocal(wi), u{toUnitFloat(words[0]), toUnitFloat(words[1]), toUnitFloat(words[2])};
+    const Coat* coat = scene_.surfaces().coat(hit.material);
+    const SampleWithAlbedo s =
+        coat != nullptr ? sampleCoated(bsdf, *coat, wiLocal, u) : sampleWithAlbedo(bsdf, wiLocal, u);
     const Rgb onward = s.sample ? sane(beta_ * s.sample->weight) : Rgb{};
     const FixedRgb fixedOnward(onward);
     path_.absorbed += fixed_ - fixedOnward;
