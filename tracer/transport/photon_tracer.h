@@ -95,17 +95,21 @@ class PhotonPath {
   /// One segment and what happens at its end. False when the path is over.
   [[gnu::always_inline]] bool step(std::uint32_t event) {
     ++ledger_.rays;
-    const std::uint32_t triangle = scene_.rayCaster().nearest(origin_, direction_, from_, ledger_.repeatedRays);
-    if (triangle == kNone) {
-      ledger_.escaped += fixed_;
-      return false;
+    const RayCaster& caster = scene_.rayCaster();
+    std::uint32_t triangle = caster.nearest(origin_, direction_, from_, ledger_.repeatedRays);
+    if (triangle == kNone) return escape();
+    Hit hit = caster.intersect(triangle, origin_, direction_);
+    if (blackBack(hit) || lampOn(hit)) [[unlikely]] {
+      triangle = caster.past(triangle, origin_, direction_, from_, ledger_.repeatedRays);
+      if (triangle == kNone) return escape();
+      hit = caster.intersect(triangle, origin_, direction_);
+      if (blackBack(hit)) {
+        ++ledger_.hits;
+        path_.absorbed += fixed_;
+        return false;
+      }
     }
     ++ledger_.hits;
-    const Hit hit = scene_.rayCaster().intersect(triangle, origin_, direction_);
-    if (hit.back && !scene_.surfaces().doubleSided(hit.material)) {  // an opaque, black back
-      path_.absorbed += fixed_;
-      return false;
-    }
     const Vec3f wi = -direction_, n = hit.back ? -hit.n : hit.n;
     const Vec3f ns = scene_.shadingNormal(hit, n, wi);
     const auto words = sampler_.words(event, Stream::scatter);
@@ -114,6 +118,19 @@ class PhotonPath {
     from_ = triangle;
     origin_ = RayCaster::leave(hit.position, n);
     return true;
+  }
+
+  /// Backs of one-sided triangles are opaque and black.
+  [[gnu::always_inline]] bool blackBack(const Hit& hit) const {
+    return hit.back && !scene_.surfaces().doubleSided(hit.material);
+  }
+  /// A lamp on a two-sided surface shines to both sides of it.
+  [[gnu::always_inline]] bool lampOn(const Hit& hit) const {
+    return from_ == kNone && RayCaster::startsOn(hit, origin_) && scene_.surfaces().doubleSided(hit.material);
+  }
+  bool escape() {
+    ledger_.escaped += fixed_;
+    return false;
   }
 
   [[gnu::always_inline]] bool scatter(const Hit& hit, const std::array<std::uint32_t, 4>& words, Vec3f wi, Vec3f n,
