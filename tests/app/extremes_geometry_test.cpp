@@ -136,17 +136,25 @@ TEST(SealedRoom, WithSharpEdgesLosesNoPhoton) {
   EXPECT_TRUE(room.baked.ledger.escaped == FluxSum{}) << fraction(room.baked.ledger.escaped.units[1]) << " photons";
 }
 
-/// A lamp that touches a surface shines on that side of it which it belongs to: the front.
+/// A lamp that touches a one-sided wall is in front of it; one that touches a two-sided wall shines to both sides.
 TEST(PointLight, ExactlyOnAWallLightsTheRoomInFrontOfIt) {
   for (const double height : {2.0, 2.1, 2.2}) {  // on the grid of single precision and off it
-    SceneBuilder s;
-    s.addBox({-1, 0, -1}, {1, height, 1}, s.addDiffuse(Rgb(0.f)), true);
-    s.addLight(pointLight({0, height, 0}));
-    const BakedScene b(s.build(), test::quickOptions(200'000, 1e-3));
-    const SideMaps& floor = b.baked.maps.sides[2];
-    ASSERT_GT(b.baked.maps.charts[floor.chart].normal.y, 0.99f);
-    const double p = test::solidAngleFromMiddle(2, 2, height) / (4 * kPi64);
-    EXPECT_LT(zOfShare(4 * meanIrradiance(b, floor).y / (400 * kPi64), p, 200'000), test::zThreshold(3)) << height;
+    for (const bool doubleSided : {false, true}) {
+      for (const bool inward : {true, false}) {
+        if (!inward && !doubleSided) continue;
+        SceneBuilder s;
+        s.addBox({-1, 0, -1}, {1, height, 1}, doubleSided ? addDoubleSided(s, 0) : s.addDiffuse(Rgb(0.f)), inward);
+        s.addLight(pointLight({0, height, 0}));
+        const BakedScene b(s.build(), test::quickOptions(200'000, 1e-3));
+        double floor = 0;  // lx, on the one chart and side that faces up
+        for (const SideMaps& side : b.baked.maps.sides)
+          if (b.baked.maps.charts[side.chart].normal.y * (side.back ? -1.f : 1.f) > 0.99f && side.lit)
+            floor += meanIrradiance(b, side).y;
+        const double p = test::solidAngleFromMiddle(2, 2, height) / (4 * kPi64);
+        EXPECT_LT(zOfShare(4 * floor / (400 * kPi64), p, 200'000), test::zThreshold(9))
+            << height << (doubleSided ? " double-sided" : "") << (inward ? " inward" : " outward");
+      }
+    }
   }
 }
 

@@ -126,13 +126,12 @@ std::uint32_t RayCaster::cast(Vec3f origin, Vec3f direction, float tnear, std::u
   return kNone;
 }
 
-std::uint32_t RayCaster::atBack(std::uint32_t back, Vec3f origin, Vec3f direction, std::uint32_t from,
-                                std::uint64_t& repeats) const {
-  Hit hit = intersect(back, origin, direction);
-  for (int attempt = 0; attempt < kMostRepeats; ++attempt) {
-    const Vec3d path = hit.position - Vec3d(origin);
-    if (!hit.back || std::abs(dot(Vec3d(hit.n), path)) > kTouching) break;
-    const auto t = static_cast<float>(std::max(0.0, dot(path, Vec3d(direction))));
+std::uint32_t RayCaster::past(std::uint32_t met, Vec3f origin, Vec3f direction, std::uint32_t from,
+                              std::uint64_t& repeats) const {
+  Hit hit = intersect(met, origin, direction);
+  for (int attempt = 0; attempt < kMostRepeats && startsOn(hit, origin); ++attempt) {
+    if (attempt > 0 && !hit.back) break;
+    const auto t = static_cast<float>(std::max(0.0, dot(hit.position - Vec3d(origin), Vec3d(direction))));
     const std::uint32_t next = cast(origin, direction, t * (1 + 0x1p-18f) + 0x1p-22f, from, repeats);
     if (next == kNone) return kNone;
     hit = intersect(next, origin, direction);

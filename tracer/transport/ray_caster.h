@@ -41,12 +41,17 @@ class RayCaster {
   /// there is none. `repeats` counts the rare rays that met `from` again by rounding and were cast on.
   std::uint32_t nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const;
 
-  /// What a ray meets for which nearest() found the back of a one-sided triangle. Triangles that touch are told apart:
-  /// a ray that starts on the triangle (a lamp that touches a wall) starts in front of it and goes on, and where the
-  /// front of another lies on the back (rooms wall to wall, both faces of a wall without thickness) it meets that
-  /// front. `back` itself where neither is so; kNone where the ray goes on and there is nothing.
-  std::uint32_t atBack(std::uint32_t back, Vec3f origin, Vec3f direction, std::uint32_t from,
-                       std::uint64_t& repeats) const;
+  /// What a ray meets for which nearest() found the back of a one-sided triangle, or a triangle that it starts on and
+  /// shall not meet. Triangles that touch are told apart: a ray that starts on the triangle goes on (a lamp that
+  /// touches a wall is in front of it), and where the front of another lies on a back (rooms wall to wall, both faces
+  /// of a wall without thickness) it meets that front. `met` itself where neither is so; kNone where the ray goes on
+  /// and there is nothing.
+  std::uint32_t past(std::uint32_t met, Vec3f origin, Vec3f direction, std::uint32_t from,
+                     std::uint64_t& repeats) const;
+  /// True where a ray from `origin` starts on the very triangle that it meets.
+  static bool startsOn(const Hit& hit, Vec3f origin) {
+    return std::abs(dot(Vec3d(hit.n), hit.position - Vec3d(origin))) <= kTouching;
+  }
 
   /// Where a ray that is known to meet the triangle does so.
   Hit intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const;
