@@ -99,8 +99,8 @@ class PhotonPath {
     std::uint32_t triangle = caster.nearest(origin_, direction_, from_, ledger_.repeatedRays);
     if (triangle == kNone) return escape();
     Hit hit = caster.intersect(triangle, origin_, direction_);
-    if (blackBack(hit)) [[unlikely]] {
-      triangle = caster.atBack(triangle, origin_, direction_, from_, ledger_.repeatedRays);
+    if (blackBack(hit) || lampOn(hit)) [[unlikely]] {
+      triangle = caster.past(triangle, origin_, direction_, from_, ledger_.repeatedRays);
       if (triangle == kNone) return escape();
       hit = caster.intersect(triangle, origin_, direction_);
       if (blackBack(hit)) {
@@ -123,6 +123,10 @@ class PhotonPath {
   /// Backs of one-sided triangles are opaque and black.
   [[gnu::always_inline]] bool blackBack(const Hit& hit) const {
     return hit.back && !scene_.surfaces().doubleSided(hit.material);
+  }
+  /// A lamp on a two-sided surface shines to both sides of it.
+  [[gnu::always_inline]] bool lampOn(const Hit& hit) const {
+    return from_ == kNone && RayCaster::startsOn(hit, origin_) && scene_.surfaces().doubleSided(hit.material);
   }
   bool escape() {
     ledger_.escaped += fixed_;
