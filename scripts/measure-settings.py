@@ -4,7 +4,7 @@
   scripts/measure-settings.py [--lucarne PROGRAM] [--out FOLDER]
 
 `error` is the program's own estimate (flux-weighted, irradiance). `difference` is the relative RMS difference of pictures to that
-of the most careful bake (320 M photons, 64 directions), floor and furniture included. Frame times are of software OpenGL.
+of the most careful bake (160 M photons, 64 directions, 32 texels per metre), floor and furniture included. Frame times are of software OpenGL.
 """
 import argparse
 import json
@@ -98,7 +98,7 @@ def main():
     parser.add_argument("--out", default=os.path.join(HERE, "../out/settings"))
     arguments = parser.parse_args()
     bench = Bench(arguments.lucarne, arguments.out)
-    _, truth, _, _ = bench.bake("truth", ["--photons", "320M", "--directions", "64", "--density", "32"])
+    _, truth, _, _ = bench.bake("truth", ["--photons", "160M", "--directions", "64", "--density", "32"])
     table(bench, truth, "Photons", "--photons", ["5M", "20M", "80M"])
     table(bench, truth, "Directions", "--directions", [6, 14, 32, 64])
     table(bench, truth, "Density, texels per metre", "--density", [8, 16, 32])
