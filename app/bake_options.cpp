@@ -2,18 +2,55 @@
 
 #include <cmath>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/units.h"
 
 namespace lucarne {
 
-void check(const BakeOptions& o) {
+namespace {
+
+void checkPiece(const BakeOptions& o) {
+  if (o.part && o.photonRange) throw UsageError("--part and --photon-range cannot be given together");
+  if (o.part && (o.part->n < 1 || o.part->k < 1 || o.part->k > o.part->n)) throw UsageError("--part must be K/N with K from 1 to N");
+  if (!o.photonRange) return;
+  if (o.photonRange->begin >= o.photonRange->end) throw UsageError("--photon-range must be A:B with A below B");
+  if (o.photonRange->end > o.photons) {
+    throw UsageError("--photon-range ends at " + formatExactCount(o.photonRange->end) + ", beyond --photons " + formatExactCount(o.photons));
+  }
+}
+
+}  // namespace
+
+void checkSettings(const BakeOptions& o) {
   if (o.photons == 0) throw UsageError("--photons must be at least 1");
   if (o.directions < 1 || o.directions > 4096) throw UsageError("--directions must be 1 to 4096");
   if (!(o.texelsPerMetre > 0) || !std::isfinite(o.texelsPerMetre)) throw UsageError("--density must be a positive number of texels per metre");
   if (o.texelBudget == 0) throw UsageError("--texels must be at least 1");
   if (!(o.kernel.width >= 0.5 && o.kernel.width <= 16)) throw UsageError("--kernel-width must be 0.5 to 16 texels");
+}
+
+void check(const BakeOptions& o) {
+  checkSettings(o);
   if (o.threads < 0 || o.threads > 1024) throw UsageError("--threads must be 0 (all) to 1024");
   if (o.output.empty()) throw UsageError("-o OUT.dlm is missing");
+  if (!(o.checkpointSeconds >= 0) || !std::isfinite(o.checkpointSeconds)) throw UsageError("--checkpoint must be a time, or 0 for none");
+  checkPiece(o);
+}
+
+bool writesPart(const BakeOptions& o) { return o.part || o.photonRange || o.output.extension() == ".part"; }
+
+std::filesystem::path partPath(const BakeOptions& o) { return std::filesystem::path(o.output).replace_extension(".part"); }
+
+std::filesystem::path checkpointPath(const BakeOptions& o) {
+  std::filesystem::path place = o.output;
+  if (std::filesystem::is_symlink(place)) place = resolveTarget(place);
+  return place.replace_extension(".checkpoint");
+}
+
+IndexRange photonsOf(const BakeOptions& o) {
+  if (o.part) return shareOf(o.photons, o.part->k, o.part->n);
+  return o.photonRange.value_or(IndexRange{0, o.photons});
 }
 
 }  // namespace lucarne

@@ -6,16 +6,27 @@
 #include <optional>
 #include <string>
 
+#include "distributed/index_set.h"
 #include "dlm/deposit.h"
 #include "dlm/dlm_writer.h"
 #include "dlm/kernel.h"
 
 namespace lucarne {
 
+/// The name that stands for a scene which is no file.
+inline constexpr const char* kBuiltinSceneName = "glossy_room.glb (built in)";
+
+/// Piece k of n, from 1.
+struct PartNumber {
+  std::uint64_t k = 1, n = 1;
+};
+
 struct BakeOptions {
   std::optional<std::filesystem::path> scene;  // none: the built-in room
-  std::filesystem::path output;                // NAME.dlm
-  std::uint64_t photons = 20'000'000;
+  std::filesystem::path output;                // NAME.dlm, or NAME.part
+  std::uint64_t photons = 20'000'000;          // of the whole bake
+  std::optional<PartNumber> part;              // bake one of n parts,
+  std::optional<IndexRange> photonRange;       // or these photons; never both
   int directions = 14;
   double texelsPerMetre = 16;
   std::uint64_t texelBudget = 1'000'000;
@@ -24,6 +35,9 @@ struct BakeOptions {
   std::uint64_t seed = 0;
   LightPart light = LightPart::all;
   int threads = 0;  // 0: all
+  double checkpointSeconds = 300;  // 0: no states are saved
+  bool resume = false;             // go on from a saved state where there is one
+  bool keepPart = false;           // the tallies, too, as NAME.part
   std::optional<std::filesystem::path> report;
   DlmFormat format;
   std::string isa;  // Embree's instruction set; empty: avx2 where the processor has it
@@ -32,5 +46,16 @@ struct BakeOptions {
 
 /// UsageError naming the option that is out of range.
 void check(const BakeOptions& options);
+/// Only those that decide what is baked, not where to.
+void checkSettings(const BakeOptions& options);
+
+/// True when the output is a part.
+bool writesPart(const BakeOptions& options);
+/// NAME.part of NAME.dlm.
+std::filesystem::path partPath(const BakeOptions& options);
+/// NAME.checkpoint of NAME.dlm; beside what the name leads to when it is a link.
+std::filesystem::path checkpointPath(const BakeOptions& options);
+/// The photons of this piece of the bake.
+IndexRange photonsOf(const BakeOptions& options);
 
 }  // namespace lucarne

@@ -1,5 +1,6 @@
 #include "app/bake_report.h"
 
+#include "app/bake_identity.h"
 #include "app/ledger_json.h"
 #include "base/units.h"
 #include "dlm/resolve.h"
@@ -24,20 +25,21 @@ nlohmann::json leftOut(const Scene& scene, const BakePlan& plan, int directions)
 }
 
 nlohmann::json settingsToJson(const BakeOptions& o, const BakePlan& plan) {
-  constexpr const char* kShapes[] = {"pyramid", "box", "epanechnikov"};
-  constexpr const char* kParts[] = {"all", "direct", "indirect"};
-  return {{"photons", o.photons},
-          {"directions", o.directions},
-          {"texels_per_metre", o.texelsPerMetre},
-          {"texels_per_metre_used", plan.layout.texelsPerMetre},
-          {"texel_budget", o.texelBudget},
-          {"keep_all_directions", o.keepAllDirections},
-          {"kernel", kShapes[static_cast<int>(o.kernel.shape)]},
-          {"kernel_width", o.kernel.width},
-          {"direction_filter", "nearest"},
-          {"seed", o.seed},
-          {"light", kParts[static_cast<int>(o.light)]},
-          {"fixed_point_bits", kFixedPointBits}};
+  nlohmann::json settings = traceSettings(o);
+  settings.update(resolveSettings(o));
+  settings["photons"] = o.photons;
+  settings["texels_per_metre_used"] = plan.layout.texelsPerMetre;
+  settings["format"] = o.format.directional == ChannelType::half ? "half" : "float";
+  return settings;
+}
+
+/// Of all makers, each kind once, so that the order of merging does not show.
+std::string rayCasters(const std::set<Maker>& makers) {
+  std::set<std::string> kinds;
+  for (const Maker& m : makers) kinds.insert(m.rayCaster);
+  std::string text;
+  for (const std::string& kind : kinds) text += (text.empty() ? "" : "; ") + kind;
+  return text;
 }
 
 std::uint64_t storedMapBytes(const LightMaps& maps) {
@@ -48,30 +50,35 @@ double perSecond(std::uint64_t count, double seconds) { return seconds > 0 ? sta
 
 }  // namespace
 
-std::string sceneName(const BakeOptions& options) { return options.scene ? options.scene->filename().string() : "glossy_room.glb (built in)"; }
+std::string sceneName(const BakeOptions& options) { return options.scene ? options.scene->filename().string() : kBuiltinSceneName; }
 
-nlohmann::json makeReport(const BakeOptions& options, const PhotonScene& scene, const BakePlan& plan, const Baked& baked) {
-  const Ledger& ledger = baked.ledger;
-  nlohmann::json report = ledgerToJson(ledger, baked.emittedFlux);
+nlohmann::json makeReport(const ReportInput& in) {
+  const Ledger& ledger = in.header.ledger;
+  const double seconds = static_cast<double>(in.header.microseconds) * 1e-6;
+  nlohmann::json report = ledgerToJson(ledger, in.header.identity.emittedFlux);
   report["program"] = std::string("lucarne ") + LUCARNE_VERSION;
-  report["scene"] = sceneName(options);
-  report["settings"] = settingsToJson(options, plan);
+  report["scene"] = in.header.sceneName;
+  report["scene_hash"] = in.header.identity.scene.hex();
+  report["settings"] = settingsToJson(in.options, in.plan);
+  report["settings_hash"] = in.header.identity.settingsHash().hex();
   report["photons"] = ledger.photons;
-  report["seconds"] = baked.seconds;
-  report["photons_per_second"] = perSecond(ledger.photons, baked.seconds);
+  report["photon_ranges"] = toJson(in.header.photons);
+  report["seconds"] = seconds;
+  report["photons_per_second"] = perSecond(ledger.photons, seconds);
   report["rays"] = ledger.rays;
-  report["rays_per_second"] = perSecond(ledger.rays, baked.seconds);
+  report["rays_per_second"] = perSecond(ledger.rays, seconds);
   report["stored_hits"] = ledger.storedHits;
-  report["charts"] = plan.charts.charts.size();
-  report["directions"] = options.directions;
-  report["texels"] = plan.tallies.texels;
-  report["tally_bytes"] = plan.tallies.bytes();
-  report["map_bytes"] = storedMapBytes(baked.maps);
-  report["estimated_relative_error"] = estimatedRelativeError(baked.maps, plan.layout);
-  report["content_hash"] = baked.contentHash.hex();
-  report["left_out"] = leftOut(scene.scene(), plan, options.directions);
-  report["ray_caster"] = scene.rayCaster().description();
-  report["threads"] = threadCount(options);
+  report["charts"] = in.plan.charts.charts.size();
+  report["directions"] = in.options.directions;
+  report["texels"] = in.plan.tallies.texels;
+  report["tally_bytes"] = in.plan.tallies.bytes();
+  report["content_hash"] = in.header.content.hex();
+  report["left_out"] = leftOut(in.scene, in.plan, in.options.directions);
+  report["ray_caster"] = rayCasters(in.header.makers);
+  report["threads"] = threadCount(in.options);
+  if (in.baked == nullptr) return report;
+  report["map_bytes"] = storedMapBytes(in.baked->maps);
+  report["estimated_relative_error"] = estimatedRelativeError(in.baked->maps, in.plan.layout);
   return report;
 }
 

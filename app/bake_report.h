@@ -4,13 +4,23 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bake_scene.h"
+#include "distributed/part_header.h"
 
 namespace lucarne {
 
-/// The report's keys are a contract with others; see docs/report.md.
-nlohmann::json makeReport(const BakeOptions& options, const PhotonScene& scene, const BakePlan& plan, const Baked& baked);
+/// What there is to report on. `header` has its content hash; `baked` is null where no maps were made.
+struct ReportInput {
+  const BakeOptions& options;
+  const Scene& scene;
+  const BakePlan& plan;
+  const PartHeader& header;
+  const Baked* baked;
+};
 
-/// Nothing that differs from run to run of the same bake.
+/// The report's keys are a contract with others; see docs/report.md.
+nlohmann::json makeReport(const ReportInput& input);
+
+/// Nothing that differs from run to run of the same bake, on one machine or on many.
 nlohmann::json provenanceOf(nlohmann::json report);
 
 /// The file's name, or that of the built-in scene.

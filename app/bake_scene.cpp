@@ -19,34 +19,37 @@ BakePlan makePlan(const Scene& scene, const BakeOptions& options) {
   return {std::move(charts), std::move(layout), std::move(directions), std::move(tallies)};
 }
 
-namespace {
+Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, double emittedFlux, const Ledger& ledger,
+                  const Tallies& tallies) {
+  Baked baked;
+  baked.ledger = ledger;
+  baked.emittedFlux = emittedFlux;
+  baked.contentHash = tallies.contentHash();
+  baked.maps = resolve({scene, plan.charts, plan.layout, plan.tallies, tallies, options.directions, emittedFlux, ledger.photons}, options.kernel);
+  baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);
+  return baked;
+}
 
-void trace(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options, Tallies& tallies, Baked& baked,
-           const std::function<bool(const RunProgress&)>& progress) {
-  if (scene.emitters().empty()) return;
-  const TexelMap map(scene.scene(), plan.charts, plan.layout, plan.tallies);
+PhotonRunOptions runOptions(const BakeOptions& options) {
   PhotonRunOptions run;
   run.seed = options.seed;
   run.threads = threadCount(options);
   run.part = options.light;
-  const auto start = std::chrono::steady_clock::now();
-  runPhotons(scene, map, plan.tallies, plan.directions, {0, options.photons}, run, tallies, baked.ledger, progress);
-  baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return run;
 }
-
-}  // namespace
 
 Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options,
                 const std::function<bool(const RunProgress&)>& progress) {
-  Baked baked;
-  baked.emittedFlux = scene.emitters().totalFlux();
   Tallies tallies(plan.tallies);
-  trace(scene, plan, options, tallies, baked, progress);
-  baked.contentHash = tallies.contentHash();
-  baked.maps = resolve({scene.scene(), plan.charts, plan.layout, plan.tallies, tallies, options.directions, baked.emittedFlux,
-                        baked.ledger.photons},
-                       options.kernel);
-  baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);
+  Ledger ledger;
+  const auto start = std::chrono::steady_clock::now();
+  if (!scene.emitters().empty()) {
+    const TexelMap map(scene.scene(), plan.charts, plan.layout, plan.tallies);
+    runPhotons({scene, map, plan.tallies, plan.directions}, {0, options.photons}, runOptions(options), tallies, ledger, progress);
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Baked baked = resolveBake(scene.scene(), plan, options, scene.emitters().totalFlux(), ledger, tallies);
+  baked.seconds = seconds;
   return baked;
 }
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "app/bake_plan.h"
-#include "app/photon_run.h"
+#include "distributed/photon_run.h"
 #include "dlm/atlas.h"
 #include "dlm/light_maps.h"
 
@@ -22,6 +22,14 @@ struct Baked {
 /// Traces options.photons photons and resolves them. `progress` as in runPhotons; stopping early gives a whole, noisier result.
 Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options,
                 const std::function<bool(const RunProgress&)>& progress);
+
+/// Maps of tallies of `photons` photons (0: black): what resolving, the layout and the kernel of `options` decide. Fills in
+/// emittedFlux, maps, uv and contentHash.
+Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, double emittedFlux, const Ledger& ledger,
+                  const Tallies& tallies);
+
+/// What tracing needs to know of the options.
+PhotonRunOptions runOptions(const BakeOptions& options);
 
 /// As typed, or all of the machine's.
 int threadCount(const BakeOptions& options);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "app/ledger_json.h"
+#include "app/merge_gaps.h"
 #include "base/error.h"
 #include "base/image_file.h"
+#include "distributed/part_file.h"
 #include "dlm/dlm_reader.h"
 #include "tracer/scene/gltf_reader.h"
 #include "tracer/scene/scene_summary.h"
@@ -24,6 +27,22 @@ nlohmann::json describeDlm(const std::filesystem::path& path) {
     if (d.contains(key) && (d[key].is_array() || d[key].is_object())) d[key] = d[key].size();
   if (d.contains("directions") && d["directions"].is_object()) d["directions"].erase("list");
   d["kind"] = "light maps";
+  return d;
+}
+
+nlohmann::json describePart(const std::filesystem::path& path) {
+  const PartReader part(path);
+  part.stream({});
+  const PartHeader& h = part.header();
+  nlohmann::json d = toJson(h);
+  d["kind"] = "part";
+  d["photons"] = h.photons.count();
+  d["photon_ranges"] = d["tally_sets"][0]["ranges"];
+  d["missing"] = toText(missingPhotons(h));
+  d["seconds"] = static_cast<double>(h.microseconds) * 1e-6;
+  d["tally_bytes"] = h.tallyBytes();
+  d["file_bytes"] = std::filesystem::file_size(path);
+  d.update(ledgerToJson(h.ledger, h.identity.emittedFlux));
   return d;
 }
 
@@ -70,14 +89,18 @@ nlohmann::json describe(const std::filesystem::path& path) {
   } else if (extension == ".glb" || extension == ".gltf") {
     d = summarize(readGltf(path));
     d["kind"] = "scene";
+  } else if (isPart(path)) {
+    d = describePart(path);
   } else if (extension == ".exr") {
     d = describeImage(readExrRgb(path));
   } else if (extension == ".hdr") {
     d = describeImage(readHdr(path));
   } else if (!std::filesystem::exists(path)) {
     throw InputError(path.string() + ": no such file or folder");
+  } else if (extension == ".part") {
+    d = describePart(path);  // says what is wrong with it
   } else {
-    throw InputError(path.string() + ": not a .dlm folder, a .glb or .gltf scene, or an .exr or .hdr image");
+    throw InputError(path.string() + ": not a .dlm folder, a .part, a .glb or .gltf scene, or an .exr or .hdr image");
   }
   d["path"] = path.string();
   return d;

@@ -7,7 +7,7 @@
 
 namespace lucarne {
 
-/// A .dlm folder, a scene (.glb, .gltf) or an image (.exr, .hdr). Always has "kind" and "path". InputError for
+/// A .dlm folder, a .part (read whole and checked), a scene (.glb, .gltf) or an image (.exr, .hdr). Always has "kind" and "path". InputError for
 /// anything else.
 nlohmann::json describe(const std::filesystem::path& path);
 

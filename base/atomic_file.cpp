@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <string>
 #include <system_error>
 
 #include "base/error.h"
@@ -15,6 +16,13 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 constexpr int kMaxAttempts = 10000;
+
+constexpr const char* kTemporaryEnd = ".tmp";
+
+/// Hidden, and told apart by what it is for; cut, because names have at most 255 bytes.
+std::string temporaryPrefix(const std::filesystem::path& target) {
+  return "." + target.filename().string().substr(0, 200) + ".lucarne-";
+}
 
 bool isOutOfSpace(int code) { return code == ENOSPC || code == EDQUOT || code == ENOMEM; }
 
@@ -35,8 +43,17 @@ std::filesystem::path resolveTarget(const std::filesystem::path& path) {
 
 std::filesystem::path temporarySibling(const std::filesystem::path& target) {
   static std::atomic<unsigned> count{0};
-  const std::string name = ".lucarne-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp";
-  return target.parent_path() / name;
+  const std::string number = std::to_string(::getpid()) + "-" + std::to_string(count++);
+  return target.parent_path() / (temporaryPrefix(target) + number + kTemporaryEnd);
+}
+
+void removeTemporaries(const std::filesystem::path& target) {
+  const std::string prefix = temporaryPrefix(target);
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(target.parent_path(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix) && name.ends_with(kTemporaryEnd)) std::filesystem::remove_all(entry.path(), ignored);
+  }
 }
 
 void syncToDisk(const std::filesystem::path& path) {

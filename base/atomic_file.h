@@ -14,6 +14,9 @@ std::filesystem::path resolveTarget(const std::filesystem::path& path);
 /// A fresh name beside `target` (already resolved); creates nothing. `attempt` makes the names of one process differ.
 std::filesystem::path temporarySibling(const std::filesystem::path& target);
 
+/// Removes what killed writers of `target` (already resolved) left beside it. Nobody else may be writing it.
+void removeTemporaries(const std::filesystem::path& target);
+
 /// Throws Error(failed), or Error(outOfResource) for a full disk or quota: "cannot WHAT PATH: the system's reason".
 [[noreturn]] void throwSystemError(const char* what, const std::filesystem::path& path, int code);
 

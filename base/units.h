@@ -20,6 +20,8 @@ double parsePercentage(std::string_view option, std::string_view text);
 
 /// "9999", "20M", "1.23M": three digits from ten thousand on.
 std::string formatCount(std::uint64_t count);
+/// The shortest text that parseCount() reads as the same number: "20M", "2.5M", "1234567".
+std::string formatExactCount(std::uint64_t count);
 /// "512 B", "1.5 GiB".
 std::string formatBytes(std::uint64_t bytes);
 /// "0.35 s", "12.3 s", "5 min 3 s", "8 h 5 min", "2 d 3 h".

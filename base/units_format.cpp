@@ -55,6 +55,21 @@ std::string formatCount(std::uint64_t count) {
   return count < 10000 ? std::to_string(count) : withSuffix(static_cast<double>(count));
 }
 
+std::string formatExactCount(std::uint64_t count) {
+  constexpr std::array<char, 4> kSuffixes = {'k', 'M', 'G', 'T'};
+  std::string shortest = std::to_string(count);
+  std::uint64_t unit = 1;
+  for (const char suffix : kSuffixes) {
+    unit *= 1000;
+    if (count < unit) break;
+    std::string fraction = std::to_string(unit + count % unit).substr(1);  // zeros in front kept
+    fraction.erase(fraction.find_last_not_of('0') + 1);
+    const std::string text = std::to_string(count / unit) + (fraction.empty() ? "" : "." + fraction) + suffix;
+    if (text.size() < shortest.size()) shortest = text;
+  }
+  return shortest;
+}
+
 std::string formatBytes(std::uint64_t bytes) {
   constexpr std::array<const char*, 7> kUnits = {" B", " KiB", " MiB", " GiB", " TiB", " PiB", " EiB"};
   const Scaled s = scaled(static_cast<double>(bytes), 1024, kUnits.size());

@@ -14,15 +14,35 @@ namespace {
 
 /// Numbers arrive as text, so that 20M and 1e9 work and nonsense is refused in our words.
 struct BakeTexts {
-  std::string scene, report, photons = "20M", texels = "1M", seed = "0";
+  std::string scene, report, photons = "20M", texels = "1M", seed = "0", part, photonRange, checkpoint = "5m";
 };
 
-void finish(BakeOptions& options, const BakeTexts& texts) {
+/// The two numbers of "A/B" or "A:B".
+std::pair<std::uint64_t, std::uint64_t> parsePair(const std::string& option, const std::string& text, char between) {
+  const std::size_t at = text.find(between);
+  if (at == std::string::npos) throw UsageError(option + " must be two numbers with " + between + " between them, not '" + text + "'");
+  return {parseCount(option, text.substr(0, at)), parseCount(option, text.substr(at + 1))};
+}
+
+void finishPiece(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
+  if (!texts.part.empty()) {
+    const auto [k, n] = parsePair("--part", texts.part, '/');
+    options.part = PartNumber{k, n};
+  }
+  if (texts.photonRange.empty()) return;
+  const auto [begin, end] = parsePair("--photon-range", texts.photonRange, ':');
+  options.photonRange = IndexRange{begin, end};
+  if (!photonsGiven) options.photons = std::max<std::uint64_t>(1, end);
+}
+
+void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
   if (!texts.scene.empty()) options.scene = texts.scene;
   if (!texts.report.empty()) options.report = texts.report;
   options.photons = parseCount("--photons", texts.photons);
   options.texelBudget = parseCount("--texels", texts.texels);
   options.seed = parseCount("--seed", texts.seed);
+  options.checkpointSeconds = texts.checkpoint == "0" ? 0 : parseDuration("--checkpoint", texts.checkpoint);
+  finishPiece(options, texts, photonsGiven);
 }
 
 void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
@@ -41,6 +61,14 @@ void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   cmd.add_flag("--keep-all-directions", o.keepAllDirections, "direction maps also for surfaces without a glossy lobe");
 }
 
+void addPieces(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
+  cmd.add_option("--part", texts.part, "K/N: bake part K of N (from 1) of the photons, to be merged: writes NAME.part instead of NAME.dlm");
+  cmd.add_option("--photon-range", texts.photonRange, "A:B: bake photons A to B (without B) alone, as a part");
+  cmd.add_option("--checkpoint", texts.checkpoint, "save the state in NAME.checkpoint/ that often, and at the end; 0: never")->capture_default_str();
+  cmd.add_flag("--resume", o.resume, "go on from the saved state of a killed bake, or from a finished part; without one, start anew");
+  cmd.add_flag("--keep-part", o.keepPart, "the tallies, too, as NAME.part: to merge more photons in later, or to make other maps of");
+}
+
 void addRunning(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   cmd.add_option("--threads", o.threads, "0: all; the result does not depend on it")->capture_default_str();
   addChoice<ChannelType>(cmd, "--format", o.format.directional, {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
@@ -50,6 +78,15 @@ void addRunning(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   cmd.add_flag("--quiet", o.quiet, "print errors only");
 }
 
+void tell(const BakeOptions& options, const nlohmann::json& report) {
+  const std::filesystem::path output = writesPart(options) ? partPath(options) : options.output;
+  std::string text = "wrote " + output.string() + ": " + formatCount(report["photons"].get<std::uint64_t>()) + " photons in " +
+                     formatDuration(report["seconds"].get<double>());
+  if (report.contains("estimated_relative_error"))
+    text += ", estimated error " + formatPercent(report["estimated_relative_error"].get<double>());
+  logInfo(text);
+}
+
 }  // namespace
 
 void addBake(CLI::App& app, Action& action) {
@@ -57,17 +94,15 @@ void addBake(CLI::App& app, Action& action) {
   const auto options = std::make_shared<BakeOptions>();
   const auto texts = std::make_shared<BakeTexts>();
   cmd->add_option("SCENE", texts->scene, "a .glb or .gltf file in metres; none: the built-in room");
-  cmd->add_option("-o,--output", options->output, "the light maps, a folder NAME.dlm")->required();
+  cmd->add_option("-o,--output", options->output, "the light maps, a folder NAME.dlm; NAME.part for a part")->required();
   addQuality(*cmd, *options, *texts);
+  addPieces(*cmd, *options, *texts);
   addRunning(*cmd, *options, *texts);
-  cmd->callback([options, texts, &action] {
-    action = [options, texts] {
-      finish(*options, *texts);
+  cmd->callback([options, texts, cmd, &action] {
+    action = [options, texts, cmd] {
+      finish(*options, *texts, cmd->count("--photons") > 0);
       setQuiet(options->quiet);
-      const nlohmann::json report = bake(*options);
-      logInfo("wrote " + options->output.string() + ": " + formatCount(report["photons"].get<std::uint64_t>()) + " photons in " +
-              formatDuration(report["seconds"].get<double>()) + ", estimated error " +
-              formatPercent(report["estimated_relative_error"].get<double>()));
+      tell(*options, bake(*options));
     };
   });
 }

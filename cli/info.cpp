@@ -9,7 +9,7 @@
 namespace lucarne {
 
 void addInfo(CLI::App& app, Action& action) {
-  CLI::App* cmd = app.add_subcommand("info", "tell what is in a .dlm, a scene or an .exr/.hdr image");
+  CLI::App* cmd = app.add_subcommand("info", "tell what is in a .dlm, a .part, a scene or an .exr/.hdr image");
   const auto path = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   cmd->add_option("PATH", *path, "the file or folder")->required();

@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
              "130 interrupted. `lucarne COMMAND --help` lists a command's options.");
   lucarne::Action action;
   lucarne::addBake(app, action);
+  lucarne::addMerge(app, action);
   lucarne::addInfo(app, action);
   lucarne::addProbe(app, action);
 #ifdef LUCARNE_HAS_PLAYER

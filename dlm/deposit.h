@@ -106,6 +106,8 @@ class DepositSink {
     all.incident += incident_;
     return all;
   }
+  /// Between photons: counts from zero again.
+  void resetSums() { sums_ = {}; }
 
  private:
   static constexpr std::uint64_t kTaken = ~std::uint64_t{0};

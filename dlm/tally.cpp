@@ -107,6 +107,11 @@ void Tallies::add(const Tallies& other) {
   for (std::size_t i = 0; i < statistics().size(); ++i) statistics()[i] += other.statistics()[i];
 }
 
+void Tallies::clear() {
+  std::fill(light().begin(), light().end(), 0);
+  std::fill(statistics().begin(), statistics().end(), 0);
+}
+
 Hash128 Tallies::contentHash() const {
   static_assert(std::endian::native == std::endian::little, "tallies are hashed as little-endian bytes");
   Hasher hasher;

@@ -54,11 +54,13 @@ TallyLayout planTallies(const Scene& scene, const ChartSet& charts, const TexelL
 
 class Tallies {
  public:
-  explicit Tallies(const TallyLayout& layout)
-      : light_(layout.lightEntries * kLightChannels), statistics_(layout.texels * kStatisticsChannels) {}
+  explicit Tallies(const TallyLayout& layout) : Tallies(layout.lightEntries, layout.texels) {}
+  Tallies(std::uint64_t lightEntries, std::uint64_t texels)
+      : light_(lightEntries * kLightChannels), statistics_(texels * kStatisticsChannels) {}
   std::span<std::int64_t> light() const { return light_.span(); }
   std::span<std::int64_t> statistics() const { return statistics_.span(); }
   void add(const Tallies& other);
+  void clear();
   Hash128 contentHash() const;
 
  private:

@@ -229,7 +229,7 @@ struct RangeRun {
     const TexelMap map(scene, plan.charts, plan.layout, plan.tallies);
     PhotonRunOptions o;
     o.threads = threads;
-    traced = runPhotons(photonScene, map, plan.tallies, plan.directions, range, o, tallies, ledger,
+    traced = runPhotons({photonScene, map, plan.tallies, plan.directions}, range, o, tallies, ledger,
                         [](const RunProgress&) { return true; });
   }
   PhotonScene photonScene;

@@ -51,7 +51,7 @@ TEST(Identity, SharedAndPrivateTalliesAgree) {
     o.privateTallyBytes = privateBytes;
     Tallies tallies(plan.tallies);
     Ledger ledger;
-    runPhotons(photonScene, map, plan.tallies, plan.directions, {0, 50'000}, o, tallies, ledger, [](const RunProgress&) { return true; });
+    runPhotons({photonScene, map, plan.tallies, plan.directions}, {0, 50'000}, o, tallies, ledger, [](const RunProgress&) { return true; });
     return tallies.contentHash();
   };
   EXPECT_EQ(run(0), run(std::uint64_t{1} << 40));

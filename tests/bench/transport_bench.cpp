@@ -154,7 +154,7 @@ void ThreadedDepositRays(benchmark::State& state) {
   for (auto _ : state) {
     Ledger ledger;
     Tallies tallies(f.plan->tallies);
-    runPhotons(*f.photonScene, *f.map, f.plan->tallies, f.plan->directions, {0, 8 * kPhotons}, options, tallies, ledger,
+    runPhotons({*f.photonScene, *f.map, f.plan->tallies, f.plan->directions}, {0, 8 * kPhotons}, options, tallies, ledger,
                [](const RunProgress&) { return true; });
     rays += ledger.rays;
   }

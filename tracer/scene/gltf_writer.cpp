@@ -1,9 +1,7 @@
 #include "tracer/scene/gltf_writer.h"
 
-#include <algorithm>
-#include <string_view>
-
 #include "base/error.h"
+#include "tracer/scene/gltf_embed.h"
 #include "tracer/scene/gltf_mend.h"
 #include "tracer/scene/gltf_nodes.h"
 #include "tracer/scene/gltf_plain_source.h"
@@ -24,7 +22,6 @@ class SceneWriter {
   void takeOutGeometry();
   void writePrimitives(GltfDocument& document);
   void fillOtherPrimitives(GltfDocument& document);
-  void embedImages(GltfDocument& document);
   Json& primitiveOf(Json& json, std::size_t instance) const {
     return json["meshes"][meshOf_[instance]]["primitives"][instances_[instance].primitive];
   }
@@ -44,7 +41,7 @@ std::vector<std::uint8_t> SceneWriter::write() {
   takeOutGeometry();
   const UsedReferences used = usedReferences(json_);
   GltfDocument document(std::move(json_), source_, used);
-  embedImages(document);
+  embedImages(source_, document);
   writePrimitives(document);
   fillOtherPrimitives(document);
   return document.finish();
@@ -106,25 +103,6 @@ void SceneWriter::fillOtherPrimitives(GltfDocument& document) {
       const auto count = document.json()["accessors"][position]["count"].get<std::uint64_t>();
       fillTexcoordGaps(attributes, count, document);
     }
-  }
-}
-
-std::string mimeTypeOf(const Json& image, std::span<const std::uint8_t> bytes) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.starts_with("\x89PNG")) return "image/png";
-  if (text.starts_with("\xff\xd8\xff")) return "image/jpeg";
-  if (text.starts_with("RIFF")) return "image/webp";
-  if (text.starts_with("\xabKTX")) return "image/ktx2";
-  return image.contains("mimeType") ? image["mimeType"].get<std::string>() : "application/octet-stream";
-}
-
-void SceneWriter::embedImages(GltfDocument& document) {
-  for (std::uint32_t i = 0; i < source_.list("images").size(); ++i) {
-    Json& image = document.json()["images"][i];
-    if (!image.contains("uri") || source_.images[i].empty()) continue;
-    image["mimeType"] = mimeTypeOf(image, source_.images[i]);
-    image.erase("uri");
-    image["bufferView"] = document.addView(source_.images[i], 0, 0);
   }
 }
 

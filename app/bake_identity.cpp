@@ -1,0 +1,92 @@
+#include "app/bake_identity.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "base/units.h"
+#include "tracer/transport/photon_tracer.h"
+
+namespace lucarne {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<const char*, 3> kShapes = {"pyramid", "box", "epanechnikov"};
+constexpr std::array<const char*, 3> kLightParts = {"all", "direct", "indirect"};
+
+/// The place of a view's text among names.
+template <class T, std::size_t n>
+T choiceAt(const JsonView& view, const std::array<const char*, n>& names) {
+  const auto at = std::find(names.begin(), names.end(), view.text());
+  if (at == names.end()) view.refuse("is none that this program knows");
+  return static_cast<T>(at - names.begin());
+}
+
+/// 'it'\''s' for it's; plain names as they are.
+std::string quoted(const std::string& name) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/+=:,@%";
+  if (!name.empty() && name.find_first_not_of(kPlain) == std::string::npos) return name;
+  std::string text = "'";
+  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string shortest(double value) { return json(value).dump(); }
+
+}  // namespace
+
+json traceSettings(const BakeOptions& o) {
+  return {{"directions", o.directions},
+          {"texels_per_metre", o.texelsPerMetre},
+          {"texel_budget", o.texelBudget},
+          {"keep_all_directions", o.keepAllDirections},
+          {"direction_filter", "nearest"},
+          {"seed", o.seed},
+          {"light", kLightParts[static_cast<std::size_t>(o.light)]},
+          {"fixed_point_bits", kFixedPointBits},
+          {"depth_limit", TraceLimits{}.depth}};
+}
+
+json resolveSettings(const BakeOptions& o) {
+  return {{"kernel", kShapes[static_cast<std::size_t>(o.kernel.shape)]}, {"kernel_width", o.kernel.width}};
+}
+
+BakeOptions optionsOf(const PartHeader& header, const std::string& file) {
+  const JsonView s(header.identity.settings, file), r(header.identity.resolve, file);
+  BakeOptions o;
+  o.directions = static_cast<int>(s.at("directions").integer(1, 4096));
+  o.texelsPerMetre = s.at("texels_per_metre").number();
+  o.texelBudget = s.at("texel_budget").count();
+  o.keepAllDirections = s.at("keep_all_directions").flag();
+  o.seed = s.at("seed").count();
+  o.light = choiceAt<LightPart>(s.at("light"), kLightParts);
+  o.kernel.shape = choiceAt<KernelShape>(r.at("kernel"), kShapes);
+  o.kernel.width = r.at("kernel_width").number();
+  o.photons = std::max<std::uint64_t>(1, header.planned.photons);
+  if (traceSettings(o) != header.identity.settings) s.refuse("has settings that this program does not know");
+  if (resolveSettings(o) != header.identity.resolve) r.refuse("has kernel settings that this program does not know");
+  return o;
+}
+
+std::string bakeCommand(const PartHeader& header, const std::string& output, const std::string& rest) {
+  const BakeOptions o = optionsOf(header, output), standard;
+  std::string text = "lucarne bake";
+  if (header.sceneName != kBuiltinSceneName) text += " " + quoted(header.sceneName);
+  text += " -o " + quoted(output);
+  const auto add = [&text](bool differs, const std::string& option) {
+    if (differs) text += " " + option;
+  };
+  add(o.photons != standard.photons, "--photons " + formatExactCount(o.photons));
+  add(o.directions != standard.directions, "--directions " + std::to_string(o.directions));
+  add(o.texelsPerMetre != standard.texelsPerMetre, "--density " + shortest(o.texelsPerMetre));
+  add(o.texelBudget != standard.texelBudget, "--texels " + formatExactCount(o.texelBudget));
+  add(o.keepAllDirections, "--keep-all-directions");
+  add(o.seed != standard.seed, "--seed " + std::to_string(o.seed));
+  add(o.light != standard.light, std::string("--light ") + kLightParts[static_cast<std::size_t>(o.light)]);
+  add(o.kernel.shape != standard.kernel.shape, std::string("--kernel ") + kShapes[static_cast<std::size_t>(o.kernel.shape)]);
+  add(o.kernel.width != standard.kernel.width, "--kernel-width " + shortest(o.kernel.width));
+  return text + (rest.empty() ? "" : " " + rest);
+}
+
+}  // namespace lucarne

@@ -1,0 +1,28 @@
+// Settings as parts and reports carry them, and back.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "app/bake_plan.h"
+#include "base/json.h"
+#include "distributed/part_header.h"
+
+namespace lucarne {
+
+/// All that photons and tallies depend on besides the scene.
+nlohmann::json traceSettings(const BakeOptions& options);
+/// How maps are made of tallies.
+nlohmann::json resolveSettings(const BakeOptions& options);
+
+/// The options of a bake whose header this is; everything else as by default. Checked as if typed: InputError naming
+/// `file`.
+BakeOptions optionsOf(const PartHeader& header, const std::string& file);
+
+/// "lucarne bake room.glb -o OUTPUT --seed 3 …": the command that bakes with these options, defaults left out, `rest` at the
+/// end. The scene's name is quoted for a shell.
+std::string bakeCommand(const PartHeader& header, const std::string& output, const std::string& rest);
+
+/// Of charts, texels, directions and the order of tallies.
+Hash128 layoutHash(const BakePlan& plan);
+
+}  // namespace lucarne

@@ -1,0 +1,59 @@
+// A bake as work: which photons are still to be traced, and a state that is saved on the way.
+#pragma once
+
+#include <functional>
+
+#include "distributed/checkpoint.h"
+#include "distributed/photon_run.h"
+
+namespace lucarne {
+
+struct BakeJob {
+  PhotonTask task;
+  PhotonRunOptions run;
+  IndexRange range;                     // of photons in all, those of earlier runs included
+  std::span<const std::uint8_t> scene;  // packed, as states carry it
+  double checkpointSeconds = 300;       // 0: no states
+  std::function<void(const RunProgress&)> progress;  // photons and rays so far, earlier runs included
+};
+
+/// What there is of a bake: its header says of which photons.
+struct BakeState {
+  PartHeader header;
+  Tallies tallies;
+};
+
+/// The photons of `range` that `state` lacks. Throws Error(mergeRefused) naming `file` unless what it has is the beginning
+/// of the range.
+IndexRange remaining(const BakeState& state, IndexRange range, const std::string& file);
+
+/// Traces what is left of the job's range, in order, into `state`. Saves a state every checkpointSeconds and at the end; one
+/// that fails on the way is warned of and tried again at the next. `folder` may be null: nothing is saved.
+void runJob(const BakeJob& job, BakeState& state, CheckpointFolder* folder);
+
+/// Saves states of a running job when they are due.
+class CheckpointWriter {
+ public:
+  CheckpointWriter(const BakeJob& job, CheckpointFolder* folder);
+  bool due() const { return folder_ != nullptr && clock_.due(); }
+  /// `state` is whole. A failure is warned of.
+  void save(const BakeState& state);
+  /// The end of the job: a failure is an Error.
+  void saveLast(const BakeState& state);
+
+ private:
+  const BakeJob& job_;
+  CheckpointFolder* folder_;
+  CheckpointClock clock_;
+};
+
+/// Adds to header.microseconds the time since its making, at every call the time since the last one.
+class TracingTime {
+ public:
+  void addTo(PartHeader& header);
+
+ private:
+  CheckpointClock::Clock::time_point last_ = CheckpointClock::Clock::now();
+};
+
+}  // namespace lucarne

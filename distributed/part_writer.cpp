@@ -1,0 +1,73 @@
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "distributed/part_file.h"
+
+namespace lucarne {
+namespace {
+
+/// Bytes go to the file and into its seal.
+class SealedFile {
+ public:
+  explicit SealedFile(const std::filesystem::path& path) : file_(path) {}
+  void write(const void* data, std::size_t size) {
+    file_.write(data, size);
+    hasher_.add(std::span(static_cast<const std::byte*>(data), size));
+  }
+  void write(const std::string& bytes) { write(bytes.data(), bytes.size()); }
+  void commit() {
+    const std::string seal = partSeal(hasher_.finish());
+    file_.write(seal.data(), seal.size());
+    file_.commit();
+  }
+
+ private:
+  AtomicFile file_;
+  Hasher hasher_;
+};
+
+void writeScene(const ExrRows& rows, std::span<const std::uint8_t> scene, SealedFile& file) {
+  constexpr std::size_t kLayer = 0;
+  const std::size_t rowBytes = rows.rowBytes(kLayer);
+  for (int y = 0; y < rows.layers()[kLayer].height; ++y) {
+    const auto bytes = scene.subspan(std::min(scene.size(), static_cast<std::size_t>(y) * rowBytes));
+    std::vector<std::uint8_t> row(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(rowBytes, bytes.size())));
+    row.resize(rowBytes);
+    file.write(rows.rowHead(kLayer, y));
+    file.write(row.data(), row.size());
+  }
+}
+
+void writeTallies(const ExrRows& rows, PartLayer layer, std::span<const std::int64_t> values, SealedFile& file) {
+  const auto index = static_cast<std::size_t>(layer);
+  const std::size_t perRow = kPartWidth * channelsOf(layer);
+  std::vector<std::uint32_t> row(rows.rowBytes(index) / 4);
+  for (int y = 0; y < rows.layers()[index].height; ++y) {
+    const auto left = values.subspan(std::min(values.size(), static_cast<std::size_t>(y) * perRow));
+    const auto here = left.first(std::min(perRow, left.size()));
+    std::int64_t signs = 0;
+    for (const std::int64_t v : here) signs |= v;
+    LUCARNE_CHECK_LE(std::int64_t{0}, signs);
+    if (here.size() < perRow) std::fill(row.begin(), row.end(), 0);
+    splitRow(layer, here, row);
+    file.write(rows.rowHead(index, y));
+    file.write(row.data(), row.size() * 4);
+  }
+}
+
+}  // namespace
+
+void writePart(const std::filesystem::path& path, PartHeader header, std::span<const std::uint8_t> scene, const Tallies& tallies) {
+  header.sceneBytes = scene.size();
+  header.lightEntries = tallies.light().size() / kLightChannels;
+  header.texels = tallies.statistics().size() / kStatisticsChannels;
+  header.content = tallies.contentHash();
+  const ExrRows rows = partRows(header, path.string());
+  SealedFile file(path);
+  file.write(rows.head());
+  writeScene(rows, scene, file);
+  writeTallies(rows, PartLayer::light, tallies.light(), file);
+  writeTallies(rows, PartLayer::statistics, tallies.statistics(), file);
+  file.commit();
+}
+
+}  // namespace lucarne

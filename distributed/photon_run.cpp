@@ -1,0 +1,177 @@
+#include "distributed/photon_run.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "base/error.h"
+#include "base/float_mode.h"
+
+namespace lucarne {
+namespace {
+
+constexpr std::uint64_t kChunk = 4096;
+
+/// One thread's sink over its tallies, kept from batch to batch.
+class Worker {
+ public:
+  virtual ~Worker() = default;
+  /// `taken` counts from the beginning of the range: an index past its end may not fit 64 bits.
+  virtual void take(std::atomic<std::uint64_t>& taken, IndexRange range) = 0;
+  /// Everything this worker did since the last reset, deposits included.
+  virtual Ledger ledger() const = 0;
+  virtual void reset() = 0;
+};
+
+template <bool shared>
+class SinkWorker final : public Worker {
+ public:
+  SinkWorker(const PhotonTask& task, const PhotonRunOptions& options, const Tallies& tallies)
+      : task_(task), options_(options), sink_(task.map, task.layout, task.directions, options.part, tallies) {}
+
+  void take(std::atomic<std::uint64_t>& taken, IndexRange range) override {
+    const FlushDenormals mode;
+    for (;;) {
+      const std::uint64_t offset = taken.fetch_add(kChunk, std::memory_order_relaxed);
+      if (offset >= range.size()) break;
+      const std::uint64_t begin = range.begin + offset, end = begin + std::min(kChunk, range.size() - offset);
+      tracePhotons(task_.scene, {begin, end}, options_.seed, options_.limits, sink_, ledger_);
+    }
+    sink_.flush();
+  }
+
+  Ledger ledger() const override {
+    Ledger all = ledger_;
+    all.incident += sink_.sums().incident;
+    all.storedHits += sink_.sums().storedHits;
+    all.clampedNormals += sink_.sums().clamped;
+    return all;
+  }
+
+  void reset() override {
+    ledger_ = {};
+    sink_.resetSums();
+  }
+
+ private:
+  const PhotonTask& task_;
+  const PhotonRunOptions& options_;
+  DepositSink<shared> sink_;
+  Ledger ledger_;
+};
+
+/// Batches grow until one takes about a quarter of a second: progress stays lively and the barrier between costs little.
+class BatchSize {
+ public:
+  std::uint64_t next() const { return size_; }
+  void took(double seconds) {
+    if (seconds < 0.125 && size_ < kLargest) size_ *= 2;
+    if (seconds > 0.5 && size_ > kChunk) size_ /= 2;
+  }
+
+ private:
+  static constexpr std::uint64_t kLargest = std::uint64_t{1} << 26;
+  std::uint64_t size_ = 8 * kChunk;
+};
+
+}  // namespace
+
+void checkTalliesFit(const FluxSum& incident) {
+  for (const Int128 sum : incident.units)
+    if (sum >= (Int128{1} << 63))
+      throw Error(ExitCode::outOfResource, "tallies are full: bake fewer photons, or in parts with their own light maps");
+}
+
+class PhotonRun::Impl {
+ public:
+  Impl(const PhotonTask& task, const PhotonRunOptions& options, Tallies& tallies)
+      : task_(task),
+        options_(options),
+        tallies_(tallies),
+        allowed_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads)),
+        arena_(options.threads) {
+    const auto threads = static_cast<std::size_t>(options.threads);
+    const bool shared = threads > 1 && task.layout.bytes() * threads > options.privateTallyBytes;
+    copies_.reserve(threads);
+    for (std::size_t i = 0; i < threads; ++i) {
+      if (shared) {
+        workers_.push_back(std::make_unique<SinkWorker<true>>(task_, options_, tallies_));
+      } else {
+        const Tallies& own = i == 0 ? tallies_ : copies_.emplace_back(task.layout);
+        workers_.push_back(std::make_unique<SinkWorker<false>>(task_, options_, own));
+      }
+    }
+  }
+
+  std::uint64_t trace(IndexRange range, const std::function<bool(const RunProgress&)>& progress) {
+    std::uint64_t done = range.begin;
+    while (done < range.end) {
+      const std::uint64_t end = done + std::min(batch_.next(), range.end - done);
+      traceBatch({done, end});
+      done = end;
+      const Ledger sum = sumLedgers();
+      checkTalliesFit(sum.incident);
+      if (!progress({sum.photons, sum.rays})) break;
+    }
+    return done - range.begin;
+  }
+
+  void collect(Ledger& ledger) {
+    ledger += sumLedgers();
+    checkTalliesFit(ledger.incident);
+    for (const auto& w : workers_) w->reset();
+    for (Tallies& copy : copies_) {
+      tallies_.add(copy);
+      copy.clear();
+    }
+  }
+
+ private:
+  void traceBatch(IndexRange range) {
+    std::atomic<std::uint64_t> taken{0};
+    const auto start = std::chrono::steady_clock::now();
+    arena_.execute([&] {
+      tbb::parallel_for(
+          std::size_t{0}, workers_.size(), [&](std::size_t w) { workers_[w]->take(taken, range); }, tbb::simple_partitioner());
+    });
+    batch_.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+
+  Ledger sumLedgers() const {
+    Ledger sum;
+    for (const auto& w : workers_) sum += w->ledger();
+    return sum;
+  }
+
+  const PhotonTask task_;
+  const PhotonRunOptions options_;
+  Tallies& tallies_;
+  std::vector<Tallies> copies_;  // of all threads but the first, where they fit
+  std::vector<std::unique_ptr<Worker>> workers_;
+  tbb::global_control allowed_;
+  tbb::task_arena arena_;
+  BatchSize batch_;
+};
+
+PhotonRun::PhotonRun(const PhotonTask& task, const PhotonRunOptions& options, Tallies& tallies)
+    : impl_(std::make_unique<Impl>(task, options, tallies)) {}
+PhotonRun::~PhotonRun() = default;
+
+std::uint64_t PhotonRun::trace(IndexRange range, const std::function<bool(const RunProgress&)>& progress) {
+  return impl_->trace(range, progress);
+}
+
+void PhotonRun::collect(Ledger& ledger) { impl_->collect(ledger); }
+
+std::uint64_t runPhotons(const PhotonTask& task, IndexRange range, const PhotonRunOptions& options, Tallies& tallies,
+                         Ledger& ledger, const std::function<bool(const RunProgress&)>& progress) {
+  PhotonRun run(task, options, tallies);
+  const std::uint64_t done = run.trace(range, progress);
+  run.collect(ledger);
+  return done;
+}
+
+}  // namespace lucarne

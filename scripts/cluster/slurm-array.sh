@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# slurm-array.sh SCENE OUT.dlm N [BAKE OPTION…]: bakes SCENE as a Slurm job array of N parts, and merges them in a second job
+# that waits for the first. Prints the ids of both. SCENE - is the built-in room.
+#
+# The parts and the logs lie in OUT.parts/. A part that is there is not baked again, and one that was begun goes on from its
+# checkpoint: after a failure, submit the same command again. What the nodes need is a common file system.
+#
+#   LUCARNE         the program, as the nodes see it (default: the one built here)
+#   LUCARNE_SBATCH  options for sbatch, e.g. "--partition=long --time=8:00:00 --cpus-per-task=32"
+set -euo pipefail
+
+usage() {
+  sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0" >&2
+  exit 2
+}
+
+die() {
+  echo "slurm-array: $*" >&2
+  exit "${code:-1}"
+}
+
+# default_option NAME VALUE: unless the user gave it.
+default_option() {
+  case " ${options[*]} " in
+    *" $1 "* | *" $1="*) ;;
+    *) options+=("$1" "$2") ;;
+  esac
+}
+
+# Old parts would merge into the old light maps without a word when the scene or an option has changed.
+claim_folder() {
+  local bake
+  mkdir -p "$parts"
+  bake=$(printf '%s\n' "scene $([ "$scene" = - ] || sha256sum <"$scene")" "parts $count" "options ${options[*]@Q}")
+  [ -f "$parts/bake.txt" ] || echo "$bake" >"$parts/bake.txt"
+  [ "$bake" = "$(cat "$parts/bake.txt")" ] ||
+    die "$parts holds the parts of another bake (see bake.txt there); remove it, or take another name"
+}
+
+# afterany and not afterok: when a task fails for good, a job that waits for afterok stays in the queue for ever and tells nothing,
+# while this one runs, names the photons that are missing, and ends with an error (--complete).
+submit() {
+  local array merge self
+  local sbatch=(sbatch --parsable --requeue --open-mode=append)
+  # shellcheck disable=SC2206 # several options in one variable
+  sbatch+=(${LUCARNE_SBATCH:-})
+  command -v sbatch >/dev/null || die "there is no sbatch here (Debian: slurm-client)"
+  [ "$scene" = - ] || scene=$(realpath -e "$scene")
+  [[ "$lucarne" != */* ]] || lucarne=$(realpath -e "$lucarne")
+  self=$(realpath "$0")
+  claim_folder
+  # USR1 comes to the script two minutes before the time limit: it then saves and queues itself again.
+  array=$("${sbatch[@]}" --job-name="lucarne-${name##*/}" --array="1-$count" --signal=B:USR1@120 --output="$parts/%a.log" \
+    "$self" --run-part "$lucarne" "$scene" "$out" "$count" "${options[@]}")
+  merge=$("${sbatch[@]}" --job-name="lucarne-${name##*/}-merge" --dependency="afterany:${array%%;*}" \
+    --output="$parts/merge.log" "$self" --run-merge "$lucarne" "$scene" "$out" "$count" "${options[@]}")
+  echo "array ${array%%;*}"
+  echo "merge ${merge%%;*}"
+  echo "slurm-array: logs are in $parts; merge.log has the result" >&2
+}
+
+# One task of the array. Slurm sends TERM to every process when it cancels, preempts or requeues a task: the program then saves
+# its state, and this shell has to live until it has.
+run_part() {
+  local k=$SLURM_ARRAY_TASK_ID status=0 limit_near=false
+  if [ -f "$parts/$k.part" ] && "$lucarne" merge "$parts/$k.part" --verify; then
+    echo "slurm-array: part $k of $count is already there"
+    return
+  fi
+  default_option --threads "$SLURM_CPUS_ON_NODE"
+  default_option --checkpoint 5m
+  trap : TERM
+  trap 'limit_near=true; kill -TERM "$bake"' USR1
+  "$lucarne" bake "${scene_argument[@]}" -o "$parts/$k.part" --part "$k/$count" --resume "${options[@]}" &
+  bake=$!
+  # A signal ends a wait early.
+  wait "$bake" || status=$?
+  while kill -0 "$bake" 2>/dev/null; do
+    status=0
+    wait "$bake" || status=$?
+  done
+  if [ "$status" -eq 130 ] && $limit_near; then
+    echo "slurm-array: part $k of $count is saved at the time limit and queued again"
+    scontrol requeue "${SLURM_ARRAY_JOB_ID}_$k"
+  fi
+  return "$status"
+}
+
+run_merge() {
+  local k files=()
+  for ((k = 1; k <= count; ++k)); do
+    [ ! -f "$parts/$k.part" ] || files+=("$parts/$k.part")
+    [ -f "$parts/$k.part" ] || echo "slurm-array: part $k of $count is missing; its log is $parts/$k.log"
+  done
+  [ ${#files[@]} -gt 0 ] || die "no part was baked"
+  printf '%s\n' "${files[@]}" >"$parts/list.txt"
+  "$lucarne" merge "@$parts/list.txt" -o "$out" --complete
+}
+
+top=$(realpath -m "$(dirname "$0")/../..")
+role=submit
+lucarne=${LUCARNE:-$top/build/release/cli/lucarne}
+case "${1:-}" in
+  --run-part | --run-merge)
+    role=${1#--}
+    lucarne=$2
+    shift 2
+    ;;
+esac
+[[ $# -ge 3 && "$2" == *?.dlm && "$3" =~ ^[1-9][0-9]*$ ]] || usage
+scene=$1
+out=$(realpath -m "$2")
+count=$3
+shift 3
+options=("$@")
+name=${out%.dlm}
+parts=$name.parts
+scene_argument=()
+[ "$scene" = - ] || scene_argument=("$scene")
+
+case "$role" in
+  submit) submit ;;
+  run-part) run_part ;;
+  run-merge) run_merge ;;
+esac
