@@ -4,6 +4,7 @@
 
 #include "app/bake_identity.h"
 #include "app/bake_outputs.h"
+#include "app/bake_ranks.h"
 #include "app/bake_report.h"
 #include "app/bake_resume.h"
 #include "app/builtin_scene.h"
@@ -15,6 +16,7 @@
 #include "base/units.h"
 #include "distributed/bake_job.h"
 #include "distributed/build_info.h"
+#include "distributed/mpi_job.h"
 #include "distributed/probe_rays.h"
 #include "tracer/scene/gltf_packer.h"
 #include "tracer/scene/gltf_reader.h"
@@ -30,13 +32,15 @@ PackedScene load(const BakeOptions& options) {
   return {std::move(glb), std::move(scene)};
 }
 
-/// Maps take at most half of what the tallies do; they exist together while resolving.
-void checkMemory(const BakePlan& plan) {
-  const std::uint64_t needed = plan.tallies.bytes() + plan.tallies.bytes() / 2;
+/// Maps take at most half of what the tallies do; they exist together while resolving, in one process. `processes` of them
+/// share the machine's memory.
+void checkMemory(const BakePlan& plan, int processes) {
+  const std::uint64_t needed = plan.tallies.bytes() * static_cast<std::uint64_t>(processes) + plan.tallies.bytes() / 2;
   const std::uint64_t available = availableMemoryBytes();
   if (needed <= available) return;
   throw Error(ExitCode::outOfResource, "light maps need " + formatBytes(needed) + " and " + formatBytes(available) +
-                                           " are free: lower --density, --texels or --directions");
+                                           " are free: lower --density, --texels or --directions" +
+                                           (processes > 1 ? ", or start fewer ranks with more --threads" : ""));
 }
 
 void warnAbout(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options) {
@@ -60,38 +64,92 @@ PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const
 }
 
 /// Traces what the state lacks. A scene without light is at once as good as traced.
-void trace(const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene, const BakePlan& plan, BakeState& state,
-           CheckpointFolder& folder) {
+void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene, const BakePlan& plan,
+           BakeState& state, CheckpointFolder& folder) {
   const IndexRange range = photonsOf(options);
+  const bool root = mpi == nullptr || mpi->rank() == 0;
   if (scene.emitters().empty()) {
     state.header.photons = IndexSet(range);
-    if (options.checkpointSeconds > 0) folder.save(state.header, packed.glb, state.tallies);
+    if (root && options.checkpointSeconds > 0) folder.save(state.header, packed.glb, state.tallies);
     return;
   }
   const TexelMap map(packed.scene, plan.charts, plan.layout, plan.tallies);
-  ProgressLine progress("baking", range.size(), options.quiet);
+  ProgressLine progress("baking", range.size(), options.quiet || !root);
+  progress.startFrom(state.header.photons.count(), state.header.ledger.rays);
   const auto show = [&progress](const RunProgress& p) { progress.update(p.photons, p.rays); };
   const BakeJob job{{scene, map, plan.tallies, plan.directions}, runOptions(options), range, packed.glb, options.checkpointSeconds, show};
-  runJob(job, state, &folder);
+  if (mpi != nullptr) {
+    mpi->run(job, state, &folder);
+  } else {
+    runJob(job, state, &folder);
+  }
   progress.finish();
+}
+
+/// The bake of one process, or of all ranks together: rank 0 alone reads, saves, writes and tells. Steps that can fail on
+/// one rank while the others wait are agreed on. Returns the report on rank 0.
+nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
+  const bool root = mpi == nullptr || mpi->rank() == 0;
+  const auto agree = [mpi](const std::function<void()>& f) { mpi == nullptr ? f() : mpi->agree(f); };
+  PackedScene packed;
+  agree([&] {
+    check(options);
+    if (!root) return;
+    checkOutputs(options);
+    packed = load(options);
+  });
+  if (mpi != nullptr) {
+    shareScene(*mpi, packed);
+    options.threads = threadsOfRank(*mpi, options);
+  }
+  std::optional<PhotonScene> scene;
+  std::optional<BakePlan> plan;
+  std::optional<BakeState> state;
+  agree([&] {
+    scene.emplace(packed.scene, RayCasterOptions{options.isa, true});
+    plan.emplace(makePlan(packed.scene, options));
+    checkMemory(*plan, mpi == nullptr ? 1 : mpi->localSize());
+    if (root) warnAbout(*scene, *plan, options);
+    state.emplace(BakeState{headerOf(options, packed, *scene, *plan), Tallies(plan->tallies)});
+  });
+  if (mpi != nullptr) joinMakers(*mpi, state->header);
+  CheckpointFolder folder(checkpointPath(options));
+  std::optional<nlohmann::json> finished;
+  agree([&] {
+    if (!root) return;
+    finished = finishedBefore(options, state->header);
+    if (!finished) takeUp(options, folder, *state);
+  });
+  if (mpi != nullptr && mpi->gather(finished ? "finished" : "")[0] == "finished") return root ? writeReport(options, *finished) : nullptr;
+  if (finished) return writeReport(options, *finished);
+  trace(mpi, options, packed, *scene, *plan, *state, folder);
+  return root ? finish(options, packed, *plan, *state, folder) : nullptr;
 }
 
 }  // namespace
 
 nlohmann::json bake(const BakeOptions& options) {
-  check(options);
-  checkOutputs(options);
-  const PackedScene packed = load(options);
-  const PhotonScene scene(packed.scene, {options.isa, true});
-  const BakePlan plan = makePlan(packed.scene, options);
-  checkMemory(plan);
-  warnAbout(scene, plan, options);
-  BakeState state{headerOf(options, packed, scene, plan), Tallies(plan.tallies)};
-  if (std::optional<nlohmann::json> report = finishedBefore(options, state.header)) return writeReport(options, *report);
-  CheckpointFolder folder(checkpointPath(options));
-  takeUp(options, folder, state);
-  trace(options, packed, scene, plan, state, folder);
-  return finish(options, packed, plan, state, folder);
+  const std::unique_ptr<MpiJob> mpi = MpiJob::join();
+  if (mpi == nullptr) return bakeWith(nullptr, options);
+  if (mpi->rank() != 0) setQuiet(true);
+  ExitCode code = ExitCode::failed;
+  std::string message;
+  try {
+    return bakeWith(mpi.get(), options);
+  } catch (const AgreedError&) {
+    if (mpi->rank() == 0) throw;
+    return nullptr;
+  } catch (const Error& error) {
+    code = error.code();
+    message = error.what();
+  } catch (const std::bad_alloc&) {
+    code = ExitCode::outOfResource;
+    message = "out of memory";
+  } catch (const std::exception& error) {
+    message = std::string("internal error: ") + error.what();
+  }
+  mpi->fail(code, message);
+  return nullptr;
 }
 
 }  // namespace lucarne

@@ -7,7 +7,8 @@
 
 namespace lucarne {
 
-/// Bakes and writes the .dlm (and the report where asked). Returns the report. Throws Error; leaves nothing half-written.
+/// Bakes and writes the .dlm or the part (and the report where asked). Returns the report. Throws Error; leaves nothing
+/// half-written. Started by an MPI launcher, all ranks bake together, and all but rank 0 return null.
 nlohmann::json bake(const BakeOptions& options);
 
 }  // namespace lucarne

@@ -15,10 +15,13 @@ namespace {
 /// A state goes on only in the program and on the processor that trace as it was traced.
 void checkSameBake(const PartHeader& wanted, const PartHeader& found, const std::string& file) {
   std::string what = difference(wanted.identity, found.identity, false);
-  const Maker &here = *wanted.makers.begin(), &there = *found.makers.begin();
-  if (what.empty() && here.build != there.build) what = "build: " + here.build + " and " + there.build;
-  if (what.empty() && here.rayCaster != there.rayCaster) what = "ray_caster: " + here.rayCaster + " and " + there.rayCaster;
-  if (what.empty() && here.probeRays != there.probeRays) what = "probe_rays: " + here.probeRays.hex() + " and " + there.probeRays.hex();
+  for (const Maker& here : wanted.makers) {
+    for (const Maker& there : found.makers) {
+      if (what.empty() && here.build != there.build) what = "build: " + here.build + " and " + there.build;
+      if (what.empty() && here.rayCaster != there.rayCaster) what = "ray_caster: " + here.rayCaster + " and " + there.rayCaster;
+      if (what.empty() && here.probeRays != there.probeRays) what = "probe_rays: " + here.probeRays.hex() + " and " + there.probeRays.hex();
+    }
+  }
   if (what.empty()) return;
   throw Error(ExitCode::mergeRefused, "cannot go on: this bake and " + file + " differ in " + what +
                                           "; bake as before, name another output, or start anew without --resume");
@@ -65,6 +68,7 @@ std::optional<PartHeader> loadPart(const BakeOptions& options, const PartHeader&
 }
 
 void adopt(PartHeader& header, const PartHeader& found) {
+  header.makers.insert(found.makers.begin(), found.makers.end());
   header.photons = found.photons;
   header.ledger = found.ledger;
   header.microseconds = found.microseconds;

@@ -48,7 +48,7 @@ IndexSet missingPhotons(const PartHeader& whole) {
   return whole.photons.missing({0, std::max(whole.planned.photons, whole.photons.end())});
 }
 
-std::string describeGaps(const PartHeader& whole) {
+std::string describeGaps(const PartHeader& whole, const std::string& consequence) {
   const IndexSet missing = missingPhotons(whole);
   if (missing.empty()) return {};
   const std::vector<std::uint64_t> parts = missingParts(whole, missing);
@@ -56,7 +56,7 @@ std::string describeGaps(const PartHeader& whole) {
   if (!parts.empty()) {
     text = std::to_string(parts.size()) + " of " + std::to_string(whole.planned.parts) + " parts missing, ";
   }
-  text += "photons " + toText(missing) + (parts.empty() ? " missing" : "") + "; the result is valid with more noise; bake them with: ";
+  text += "photons " + toText(missing) + (parts.empty() ? " missing" : "") + "; " + consequence + "; bake them with: ";
   if (!parts.empty()) {
     return text + commands(
                       whole, parts, [](std::uint64_t k) { return std::to_string(k); },

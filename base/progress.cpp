@@ -44,6 +44,11 @@ ProgressLine::ProgressLine(std::string verb, std::uint64_t total, bool quiet, Pr
 
 ProgressLine::~ProgressLine() { endLine(); }
 
+void ProgressLine::startFrom(std::uint64_t photons, std::uint64_t rays) {
+  earlierPhotons_ = photons_ = photons;
+  earlierRays_ = rays_ = rays;
+}
+
 void ProgressLine::update(std::uint64_t photons, std::uint64_t rays) {
   if (quiet_ || finished_) return;
   const double now = output_.seconds();
@@ -84,8 +89,8 @@ std::string ProgressLine::liveText() const {
 }
 
 std::string ProgressLine::lastText(double seconds) const {
-  return verb_ + " " + amount() + "  " + formatRate(eventsPerSecond(photons_, seconds), "photons") + "  " +
-         formatRate(eventsPerSecond(rays_, seconds), "rays") + "  " + formatDuration(seconds);
+  return verb_ + " " + amount() + "  " + formatRate(eventsPerSecond(photons_ - earlierPhotons_, seconds), "photons") + "  " +
+         formatRate(eventsPerSecond(rays_ - earlierRays_, seconds), "rays") + "  " + formatDuration(seconds);
 }
 
 void ProgressLine::show(const std::string& text) {

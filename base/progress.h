@@ -28,6 +28,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
+  /// What earlier runs did: counts as done, not in the rates. Before the first update.
+  void startFrom(std::uint64_t photons, std::uint64_t rays);
   /// Done so far. Cheap: writes at most 5 times a second on a terminal, once a minute elsewhere.
   void update(std::uint64_t photons, std::uint64_t rays);
   /// The last line, with the rates of the whole run. More calls do nothing.
@@ -56,6 +58,7 @@ class ProgressLine {
   ProgressOutput output_;
   double start_ = 0, lastUpdate_ = 0, lastShown_ = 0;
   std::uint64_t photons_ = 0, rays_ = 0;
+  std::uint64_t earlierPhotons_ = 0, earlierRays_ = 0;
   SmoothRate photonRate_, rayRate_;
   std::size_t shownLength_ = 0;  // of the live line on the screen
   bool finished_ = false;

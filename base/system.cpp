@@ -1,16 +1,23 @@
 #include "base/system.h"
 
+#include <sched.h>
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
-#include <thread>
 
 #include "base/memory.h"
 
 namespace lucarne {
 
-int threadCount() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int threadCount() {
+  cpu_set_t usable;
+  if (::sched_getaffinity(0, sizeof(usable), &usable) != 0) return machineThreadCount();  // more than a cpu_set_t holds
+  return std::max(1, CPU_COUNT(&usable));
+}
+
+int machineThreadCount() { return std::max(1, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN))); }
 
 std::string cpuName() {
   std::ifstream file("/proc/cpuinfo");

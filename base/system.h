@@ -6,8 +6,10 @@
 
 namespace lucarne {
 
-/// Hardware threads that this process may use; at least 1.
+/// Hardware threads that this process may use (a launcher may have bound it to some of them); at least 1.
 int threadCount();
+/// Hardware threads of the machine.
+int machineThreadCount();
 /// "AMD EPYC 7B13", or "unknown processor".
 std::string cpuName();
 

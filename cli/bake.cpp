@@ -102,7 +102,8 @@ void addBake(CLI::App& app, Action& action) {
     action = [options, texts, cmd] {
       finish(*options, *texts, cmd->count("--photons") > 0);
       setQuiet(options->quiet);
-      tell(*options, bake(*options));
+      const nlohmann::json report = bake(*options);
+      if (!report.is_null()) tell(*options, report);  // null: not the first of MPI ranks
     };
   });
 }

@@ -6,11 +6,13 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "cli/commands.h"
+#include "distributed/mpi_job.h"
 
 namespace {
 
 int fail(lucarne::ExitCode code, const std::string& message) {
-  std::fprintf(stderr, "lucarne: %s\n", message.c_str());
+  // What goes wrong before MPI starts goes wrong on every rank alike: one of them tells it.
+  if (lucarne::launchedRank() <= 0) std::fprintf(stderr, "lucarne: %s\n", message.c_str());
   return static_cast<int>(code);
 }
 

@@ -1,0 +1,12 @@
+// Rank 0: deals photons to all ranks, itself among them, and brings the tallies together.
+#pragma once
+
+#include <mpi.h>
+
+#include "distributed/bake_job.h"
+
+namespace lucarne {
+
+void runRoot(MPI_Comm comm, const BakeJob& job, BakeState& state, CheckpointFolder* folder);
+
+}  // namespace lucarne

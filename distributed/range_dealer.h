@@ -1,0 +1,31 @@
+// Which photons each rank traces next. A slow rank gets fewer, and all end at about the same time.
+#pragma once
+
+#include <vector>
+
+#include "tracer/transport/photon_tracer.h"
+
+namespace lucarne {
+
+/// Deals a range out in order, so that what was dealt is always a beginning of it. A piece is about a second's work of the
+/// rank that gets it, by the rate it showed, and at most its share of half of what is left (guided self-scheduling,
+/// Polychronopoulos and Kuck 1987, halved).
+class RangeDealer {
+ public:
+  RangeDealer(IndexRange range, int ranks) : left_(range), rates_(static_cast<std::size_t>(ranks), 0.0) {}
+  /// The next piece; empty when all is dealt.
+  IndexRange next(int rank);
+  /// What the rank did with its last piece.
+  void finished(int rank, std::uint64_t photons, double seconds);
+  bool empty() const { return left_.size() == 0; }
+  /// What was dealt ends here.
+  std::uint64_t begin() const { return left_.begin; }
+
+ private:
+  static constexpr std::uint64_t kFirst = 16384, kSmallest = 4096;
+  static constexpr double kSeconds = 1;
+  IndexRange left_;
+  std::vector<double> rates_;  // photons per second; 0: not known
+};
+
+}  // namespace lucarne
