@@ -140,9 +140,7 @@ json toJson(const PartHeader& h) {
                          {"light_channels", {"r", "g", "b"}},
                          {"statistics_channels", {"count", "m2"}},
                          {"light_entries", h.lightEntries},
-                         {"light_words", h.lightWords},
                          {"texels", h.texels},
-                         {"statistics_words", h.statisticsWords},
                          {"ledger", ledgerState(h.ledger)}}})},
           {"content_hash", h.content.hex()}};
 }
@@ -168,8 +166,6 @@ PartHeader partHeaderFrom(const JsonView& v) {
   h.photons = rangesFrom(set.at("ranges"));
   h.lightEntries = set.at("light_entries").count();
   h.texels = set.at("texels").count();
-  h.lightWords = static_cast<int>(set.at("light_words").integer(1, 2));
-  h.statisticsWords = static_cast<int>(set.at("statistics_words").integer(1, 2));
   h.ledger = ledgerFromState(set.at("ledger"));
   // A scene without light is not traced.
   if (h.ledger.photons != 0 && h.ledger.photons != h.photons.count()) set.at("ledger").refuse("is of another number of photons");

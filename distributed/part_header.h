@@ -56,9 +56,6 @@ struct PartHeader {
   Ledger ledger;
   std::uint64_t microseconds = 0;  // of tracing, all runs and machines together
   std::uint64_t sceneBytes = 0, lightEntries = 0, texels = 0;
-  // 32-bit words that a tally takes in the file, 1 or 2: one while all tallies of a kind are below 2^32, as they are in
-  // the small parts of a bake that many machines share.
-  int lightWords = 2, statisticsWords = 2;
   Hash128 content;  // of the tallies: content_hash
 
   /// Takes in the header of another part of the same bake, whose photons this one does not hold. In any order of taking

@@ -20,7 +20,7 @@ int rowsFor(std::uint64_t pixels, const std::string& file) {
   return std::max(1, static_cast<int>(rows));
 }
 
-/// Where channel c of a pixel stands in the alphabetical order of its row.
+/// Where channel c of a pixel stands in the alphabetical order of its row: its high word, then its low word.
 constexpr std::array<std::size_t, 3> kLightPlaces = {2, 1, 0};  // r, g, b stand as b, g, r
 constexpr std::array<std::size_t, 3> kStatisticsPlaces = {0, 1, 0};
 
@@ -28,41 +28,32 @@ constexpr std::size_t placeOf(PartLayer layer, std::size_t channel) {
   return layer == PartLayer::light ? kLightPlaces[channel] : kStatisticsPlaces[channel];
 }
 
-/// One channel at a time, with constant strides, which compilers turn into vector code.
-template <std::size_t channels, std::size_t words>
-void split(PartLayer layer, std::span<const std::int64_t> values, std::uint32_t* row) {
-  const std::size_t pixels = values.size() / channels;
+/// One channel at a time over a row of constant length, which compilers turn into vector code.
+template <std::size_t channels, class F>
+void forChannels(PartLayer layer, F&& f) {
   for (std::size_t c = 0; c < channels; ++c) {
-    std::uint32_t* word = row + placeOf(layer, c) * words * kPartWidth;
+    const std::size_t high = 2 * placeOf(layer, c) * kPartWidth;
+    f(c, high, high + kPartWidth);
+  }
+}
+
+template <std::size_t channels>
+void split(PartLayer layer, const std::int64_t* values, std::size_t pixels, std::uint32_t* row) {
+  forChannels<channels>(layer, [&](std::size_t c, std::size_t high, std::size_t low) {
     for (std::size_t x = 0; x < pixels; ++x) {
       const auto v = static_cast<std::uint64_t>(values[x * channels + c]);
-      word[x + (words - 1) * kPartWidth] = static_cast<std::uint32_t>(v);
-      if constexpr (words == 2) word[x] = static_cast<std::uint32_t>(v >> 32);
+      row[high + x] = static_cast<std::uint32_t>(v >> 32);
+      row[low + x] = static_cast<std::uint32_t>(v);
     }
-  }
+  });
 }
 
-template <std::size_t channels, std::size_t words>
-void join(PartLayer layer, const std::uint32_t* row, std::span<std::int64_t> values) {
-  const std::size_t pixels = values.size() / channels;
-  for (std::size_t c = 0; c < channels; ++c) {
-    const std::uint32_t* word = row + placeOf(layer, c) * words * kPartWidth;
-    for (std::size_t x = 0; x < pixels; ++x) {
-      std::uint64_t v = word[x + (words - 1) * kPartWidth];
-      if constexpr (words == 2) v |= std::uint64_t{word[x]} << 32;
-      values[x * channels + c] = static_cast<std::int64_t>(v);
-    }
-  }
-}
-
-/// "b.hi", "b.lo", … or "b.lo", …
-std::vector<std::string> channelNames(std::initializer_list<const char*> names, int words) {
-  std::vector<std::string> all;
-  for (const std::string name : names) {
-    if (words == 2) all.push_back(name + ".hi");
-    all.push_back(name + ".lo");
-  }
-  return all;
+template <std::size_t channels>
+void join(PartLayer layer, const std::uint32_t* row, std::size_t pixels, std::int64_t* values) {
+  forChannels<channels>(layer, [&](std::size_t c, std::size_t high, std::size_t low) {
+    for (std::size_t x = 0; x < pixels; ++x)
+      values[x * channels + c] = static_cast<std::int64_t>(std::uint64_t{row[high + x]} << 32 | row[low + x]);
+  });
 }
 
 }  // namespace
@@ -70,28 +61,26 @@ std::vector<std::string> channelNames(std::initializer_list<const char*> names, 
 ExrRows partRows(const PartHeader& header, const std::string& file) {
   return ExrRows(kPartWidth,
                  {{"scene", {"bytes"}, rowsFor((header.sceneBytes + 3) / 4, file)},
-                  {"photons.light", channelNames({"b", "g", "r"}, header.lightWords), rowsFor(header.lightEntries, file)},
-                  {"photons.statistics", channelNames({"count", "m2"}, header.statisticsWords), rowsFor(header.texels, file)}},
+                  {"photons.light", {"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}, rowsFor(header.lightEntries, file)},
+                  {"photons.statistics", {"count.hi", "count.lo", "m2.hi", "m2.lo"}, rowsFor(header.texels, file)}},
                  kAttribute, toJson(header).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-int wordsOf(const PartHeader& header, PartLayer layer) {
-  return layer == PartLayer::light ? header.lightWords : header.statisticsWords;
-}
-
-void splitRow(PartLayer layer, int words, std::span<const std::int64_t> values, std::span<std::uint32_t> row) {
+void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<std::uint32_t> row) {
+  const std::size_t pixels = values.size() / channelsOf(layer);
   if (layer == PartLayer::light) {
-    words == 2 ? split<3, 2>(layer, values, row.data()) : split<3, 1>(layer, values, row.data());
+    split<3>(layer, values.data(), pixels, row.data());
   } else {
-    words == 2 ? split<2, 2>(layer, values, row.data()) : split<2, 1>(layer, values, row.data());
+    split<2>(layer, values.data(), pixels, row.data());
   }
 }
 
-void joinRow(PartLayer layer, int words, std::span<const std::uint32_t> row, std::span<std::int64_t> values) {
+void joinRow(PartLayer layer, std::span<const std::uint32_t> row, std::span<std::int64_t> values) {
+  const std::size_t pixels = values.size() / channelsOf(layer);
   if (layer == PartLayer::light) {
-    words == 2 ? join<3, 2>(layer, row.data(), values) : join<3, 1>(layer, row.data(), values);
+    join<3>(layer, row.data(), pixels, values.data());
   } else {
-    words == 2 ? join<2, 2>(layer, row.data(), values) : join<2, 1>(layer, row.data(), values);
+    join<2>(layer, row.data(), pixels, values.data());
   }
 }
 

@@ -15,14 +15,10 @@ enum class PartLayer : std::uint8_t { scene, light, statistics };
 /// The file for a header; throws PartError naming `file` when a layer would be too tall for the format.
 ExrRows partRows(const PartHeader& header, const std::string& file);
 
-/// 64-bit values to the words of a row's channels, and back: low and high words, or (words = 1) the low ones alone. Values
-/// are interleaved as tallies are, [pixel][channel]; channels of a row stand in alphabetical order of their names, as
-/// partRows() gives them.
-void splitRow(PartLayer layer, int words, std::span<const std::int64_t> values, std::span<std::uint32_t> row);
-void joinRow(PartLayer layer, int words, std::span<const std::uint32_t> row, std::span<std::int64_t> values);
-
-/// Words of a tally in a layer of tallies.
-int wordsOf(const PartHeader& header, PartLayer layer);
+/// 64-bit values to the low and high words of a row's channels, and back. Values are interleaved as tallies are,
+/// [pixel][channel]; channels of a row stand in alphabetical order of the names that partRows() gives them.
+void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<std::uint32_t> row);
+void joinRow(PartLayer layer, std::span<const std::uint32_t> row, std::span<std::int64_t> values);
 
 /// 64-bit values in a pixel.
 constexpr std::size_t channelsOf(PartLayer layer) { return layer == PartLayer::light ? 3 : 2; }

@@ -99,7 +99,7 @@ class PartStream {
       std::memcpy(words.data(), row.data(), row.size());
       const std::uint64_t first = y * kPartWidth;
       const auto here = std::span(values).first(channels * std::min<std::uint64_t>(kPartWidth, pixels - std::min(pixels, first)));
-      joinRow(layer, wordsOf(header_, layer), words, here);
+      joinRow(layer, words, here);
       content_.add(std::as_bytes(here));
       if (sink_.tallies) sink_.tallies(layer, first * channels, here);
     });
@@ -148,7 +148,7 @@ PartReader::PartReader(const std::filesystem::path& path)
     : file_(path), header_(readHeader()), rows_(0, {}, "", "") {
   // Before anything of that size is made: a layer takes at least its bytes in the file.
   const std::uint64_t size = file_.size();
-  if (header_.sceneBytes > size || header_.lightEntries > size / 12 || header_.texels > size / 8) {
+  if (header_.sceneBytes > size || header_.lightEntries > size / 24 || header_.texels > size / 16) {
     throw PartError(path.string() + " is cut short: it has " + std::to_string(size) + " bytes of more");
   }
   rows_ = partRows(header_, path.string());

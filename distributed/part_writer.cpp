@@ -37,23 +37,18 @@ void writeScene(const ExrRows& rows, std::span<const std::uint8_t> scene, Sealed
   }
 }
 
-/// Words that the largest value needs. Throws a std::logic_error for a negative one.
-int wordsFor(std::span<const std::int64_t> values) {
-  std::int64_t bits = 0;
-  for (const std::int64_t v : values) bits |= v;
-  LUCARNE_CHECK_LE(std::int64_t{0}, bits);
-  return bits >> 32 == 0 ? 1 : 2;
-}
-
-void writeTallies(const ExrRows& rows, PartLayer layer, int words, std::span<const std::int64_t> values, SealedFile& file) {
+void writeTallies(const ExrRows& rows, PartLayer layer, std::span<const std::int64_t> values, SealedFile& file) {
   const auto index = static_cast<std::size_t>(layer);
   const std::size_t perRow = kPartWidth * channelsOf(layer);
   std::vector<std::uint32_t> row(rows.rowBytes(index) / 4);
   for (int y = 0; y < rows.layers()[index].height; ++y) {
     const auto left = values.subspan(std::min(values.size(), static_cast<std::size_t>(y) * perRow));
     const auto here = left.first(std::min(perRow, left.size()));
+    std::int64_t signs = 0;
+    for (const std::int64_t v : here) signs |= v;
+    LUCARNE_CHECK_LE(std::int64_t{0}, signs);
     if (here.size() < perRow) std::fill(row.begin(), row.end(), 0);
-    splitRow(layer, words, here, row);
+    splitRow(layer, here, row);
     file.write(rows.rowHead(index, y));
     file.write(row.data(), row.size() * 4);
   }
@@ -65,15 +60,13 @@ void writePart(const std::filesystem::path& path, PartHeader header, std::span<c
   header.sceneBytes = scene.size();
   header.lightEntries = tallies.light().size() / kLightChannels;
   header.texels = tallies.statistics().size() / kStatisticsChannels;
-  header.lightWords = wordsFor(tallies.light());
-  header.statisticsWords = wordsFor(tallies.statistics());
   header.content = tallies.contentHash();
   const ExrRows rows = partRows(header, path.string());
   SealedFile file(path);
   file.write(rows.head());
   writeScene(rows, scene, file);
-  writeTallies(rows, PartLayer::light, header.lightWords, tallies.light(), file);
-  writeTallies(rows, PartLayer::statistics, header.statisticsWords, tallies.statistics(), file);
+  writeTallies(rows, PartLayer::light, tallies.light(), file);
+  writeTallies(rows, PartLayer::statistics, tallies.statistics(), file);
   file.commit();
 }
 
