@@ -1,7 +1,9 @@
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <thread>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -11,8 +13,12 @@
 namespace {
 
 int fail(lucarne::ExitCode code, const std::string& message) {
-  // What goes wrong before MPI starts goes wrong on every rank alike: one of them tells it.
-  if (lucarne::launchedRank() <= 0) std::fprintf(stderr, "lucarne: %s\n", message.c_str());
+  // What goes wrong before MPI starts goes wrong on every rank alike. One of them tells it; the others wait for that, since
+  // the launcher kills all when the first one ends.
+  if (lucarne::launchedRank() > 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  else
+    std::fprintf(stderr, "lucarne: %s\n", message.c_str());
   return static_cast<int>(code);
 }
 
