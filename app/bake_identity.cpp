@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <string_view>
 
 #include "base/units.h"
@@ -32,7 +33,11 @@ std::string quoted(const std::string& name) {
   return text + "'";
 }
 
-std::string shortest(double value) { return json(value).dump(); }
+/// The shortest text that reads as the same number.
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 
 }  // namespace
 

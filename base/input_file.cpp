@@ -40,6 +40,11 @@ InputFile::InputFile(const std::filesystem::path& path) : path_(path) {
 
 InputFile::~InputFile() { ::close(descriptor_); }
 
+void InputFile::prefetch(std::uint64_t offset, std::size_t count) const {
+  // Advice only: what the system makes of it changes no result.
+  ::posix_fadvise(descriptor_, static_cast<off_t>(offset), static_cast<off_t>(count), POSIX_FADV_WILLNEED);
+}
+
 std::size_t InputFile::read(std::uint64_t offset, void* into, std::size_t count) const {
   char* bytes = static_cast<char*>(into);
   std::size_t done = 0;

@@ -20,6 +20,8 @@ class InputFile {
   std::uint64_t size() const { return size_; }
   /// Up to `count` bytes from `offset`; fewer only at the end of the file.
   std::size_t read(std::uint64_t offset, void* into, std::size_t count) const;
+  /// Asks the system to fetch these bytes from disk while we do something else.
+  void prefetch(std::uint64_t offset, std::size_t count) const;
 
  private:
   std::filesystem::path path_;

@@ -8,15 +8,15 @@ namespace {
 
 constexpr std::uint64_t kFirstLook = std::uint64_t{1} << 16;
 
-/// One read of at least what is asked for at a time; every byte is hashed once, in order.
+/// Reads a block at a time while the system fetches the next ones; every byte is hashed once, in order.
 class SequentialReader {
  public:
   explicit SequentialReader(const InputFile& file) : file_(file) {}
 
   /// Valid until the next call. Fewer bytes only at the end of the file.
   std::span<const std::byte> take(std::size_t count) {
-    if (buffer_.size() - at_ < count) refill(count);
-    const auto bytes = std::span<const std::byte>(buffer_).subspan(at_, std::min(count, buffer_.size() - at_));
+    if (end_ - at_ < count) refill(count);
+    const auto bytes = std::span<const std::byte>(buffer_).subspan(at_, std::min(count, end_ - at_));
     at_ += bytes.size();
     hasher_.add(bytes);
     return bytes;
@@ -25,19 +25,20 @@ class SequentialReader {
 
  private:
   void refill(std::size_t count) {
-    buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(at_));
+    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(at_), buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+    end_ -= at_;
     at_ = 0;
-    const std::size_t had = buffer_.size();
-    buffer_.resize(std::max(count, kBlock));
-    const std::size_t got = file_.read(offset_, buffer_.data() + had, buffer_.size() - had);
+    if (buffer_.size() < std::max(count, kBlock)) buffer_.resize(std::max(count, kBlock));
+    const std::size_t got = file_.read(offset_, buffer_.data() + end_, buffer_.size() - end_);
     offset_ += got;
-    buffer_.resize(had + got);
+    end_ += got;
+    file_.prefetch(offset_, kAhead);
   }
 
-  static constexpr std::size_t kBlock = std::size_t{1} << 20;
+  static constexpr std::size_t kBlock = std::size_t{1} << 18, kAhead = std::size_t{8} << 20;
   const InputFile& file_;
   std::vector<std::byte> buffer_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, end_ = 0;  // of what is in the buffer and not yet taken
   std::uint64_t offset_ = 0;
   Hasher hasher_;
 };
