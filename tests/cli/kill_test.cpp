@@ -13,7 +13,10 @@ using test::Background;
 
 class Kill : public test::ProgramTest {
  protected:
-  static constexpr const char* kBake = "\"$LUCARNE\" bake -o room.dlm --density 4 --checkpoint 0.05s --threads 1 --resume --quiet --photons ";
+  static std::string bakeOf(const std::string& photons) {
+    return std::string("\"$LUCARNE\" bake") + test::kQuickScene +
+           "-o room.dlm --density 10 --checkpoint 0.05s --threads 1 --resume --quiet --photons " + photons;
+  }
 
   /// True while a file is being written aside whose name begins so.
   bool writing(const fs::path& folder, const std::string& prefix) const {
@@ -51,7 +54,7 @@ class Kill : public test::ProgramTest {
   }
 
   void expectUndisturbed(const std::string& photons) {
-    mustRun("bake -o whole.dlm --density 4 --threads 2 --quiet --photons " + photons);
+    mustRun(std::string("bake") + test::kQuickScene + "-o whole.dlm --density 10 --threads 2 --quiet --photons " + photons);
     EXPECT_EQ(contentHash("room.dlm"), contentHash("whole.dlm"));
     EXPECT_TRUE(same("room.dlm", "whole.dlm"));
     EXPECT_FALSE(exists("room.checkpoint"));
@@ -65,9 +68,9 @@ TEST_F(Kill, ThirtyTimesAtRandomMomentsAndInTheMiddleOfWriting) {
   int killed = 0, whileWriting = 0;
   std::uint64_t before = 0;
   for (int round = 0; killed < 30 && round < 200; ++round) {
-    Background bake(folder_, std::string(kBake) + "1G");
+    Background bake(folder_, bakeOf("1G"));
     if (round % 2 == 0) {
-      sleepFor(60 + soon(random));
+      sleepFor(soon(random));
     } else if (waitFor(bake, [&] { return writing(folder_ / "room.checkpoint", ".state-"); })) {
       sleepFor(inWriting(random));
       whileWriting += writing(folder_ / "room.checkpoint", ".state-");
@@ -82,27 +85,27 @@ TEST_F(Kill, ThirtyTimesAtRandomMomentsAndInTheMiddleOfWriting) {
   EXPECT_GT(whileWriting, 0);
   ASSERT_GT(before, 0u);
   const std::string enough = std::to_string(before + 50'000);
-  ASSERT_EQ(Background(folder_, kBake + enough).exitCode(), 0) << test::slurp(folder_ / "log");
+  ASSERT_EQ(Background(folder_, bakeOf(enough)).exitCode(), 0) << test::slurp(folder_ / "log");
   expectUndisturbed(enough);
 }
 
 TEST_F(Kill, WhileTheLightMapsAreWritten) {
   int killed = 0;
   for (int round = 0; round < 3; ++round) {
-    Background bake(folder_, std::string(kBake) + "60k");
+    Background bake(folder_, bakeOf("60k"));
     if (waitFor(bake, [&] { return writing(folder_, ".room.dlm.lucarne-"); })) {
       bake.kill();
       ++killed;
     }
   }
   EXPECT_GT(killed, 0);
-  ASSERT_EQ(Background(folder_, std::string(kBake) + "60k").exitCode(), 0) << test::slurp(folder_ / "log");
+  ASSERT_EQ(Background(folder_, bakeOf("60k")).exitCode(), 0) << test::slurp(folder_ / "log");
   expectUndisturbed("60k");
 }
 
 TEST_F(Kill, ADamagedNewestStateFallsBackWithAMessage) {
   {
-    Background bake(folder_, std::string(kBake) + "1G");
+    Background bake(folder_, bakeOf("1G"));
     const auto twoStates = [&] {
       std::error_code none;
       int states = 0;
@@ -117,7 +120,7 @@ TEST_F(Kill, ADamagedNewestStateFallsBackWithAMessage) {
   std::sort(states.begin(), states.end());
   fs::resize_file(states.back(), fs::file_size(states.back()) - 1000);
   const std::string enough = std::to_string(savedPhotonsOf(states.front()) + 100'000);
-  const auto o = run("bake -o room.dlm --density 4 --resume --photons " + enough);
+  const auto o = run(std::string("bake") + test::kQuickScene + "-o room.dlm --density 10 --resume --photons " + enough);
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.err.find(states.back().filename().string() + " is cut short"), std::string::npos) << o.err;
   EXPECT_NE(o.err.find("going on from"), std::string::npos) << o.err;

@@ -13,6 +13,9 @@
 
 namespace lucarne::test {
 
+/// A scene that loads at once, with maps for all directions, as options of a bake.
+inline constexpr const char* kQuickScene = " '" LUCARNE_SOURCE_DIR "/scenes/cornell_box.glb' --keep-all-directions ";
+
 struct ProgramOutcome {
   int code;
   std::string out, err;
@@ -39,7 +42,7 @@ class ProgramTest : public testing::Test {
   /// A line for the shell, run in the folder, with the program as $LUCARNE.
   ProgramOutcome shell(const std::string& line) const {
     const std::string command =
-        "cd '" + folder_.string() + "' && LUCARNE='" LUCARNE_PROGRAM "' && { " + line + "; } >stdout 2>stderr";
+        "cd '" + folder_.string() + "' && export LUCARNE='" LUCARNE_PROGRAM "' && { " + line + "; } >stdout 2>stderr";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"), slurp(folder_ / "stderr")};
   }
@@ -66,9 +69,10 @@ class ProgramTest : public testing::Test {
 class Background {
  public:
   Background(const std::filesystem::path& folder, const std::string& line) : pid_(::fork()) {
+    // On both sides, so that the group is there whoever runs first.
+    ::setpgid(pid_, pid_);
     if (pid_ != 0) return;
-    ::setpgid(0, 0);
-    const std::string command = "cd '" + folder.string() + "' && LUCARNE='" LUCARNE_PROGRAM "' && exec " + line + " >>log 2>&1";
+    const std::string command = "cd '" + folder.string() + "' && export LUCARNE='" LUCARNE_PROGRAM "' && exec " + line + " >>log 2>&1";
     ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
     ::_exit(127);
   }
