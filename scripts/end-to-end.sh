@@ -44,6 +44,25 @@ expect_text '"content_hash": "[0-9a-f]{32}"' report.json
 expect_exit 0 "$lucarne" info room.dlm --json
 expect_text '"content_hash": ?"[0-9a-f]{32}"' stdout.txt
 
+# The same bake in three parts, merged as a tree, and by three MPI ranks: the same files to the last bit.
+for k in 1 2 3; do
+  expect_exit 0 "$lucarne" bake -o "room-$k.part" --photons 200k --part "$k/3" --quiet --resume
+done
+expect_exit 0 "$lucarne" info room-2.part --json
+expect_text '"photon_ranges"' stdout.txt
+expect_exit 0 "$lucarne" merge room-3.part room-1.part -o two.part
+expect_text '1 of 3 parts missing, photons .*bake them with: lucarne bake' stderr.txt
+expect_exit 4 "$lucarne" merge two.part -o merged.dlm --complete
+expect_exit 4 "$lucarne" merge two.part room-1.part -o merged.dlm
+[ ! -e merged.dlm ] || fail "a refused merge left merged.dlm"
+expect_exit 0 "$lucarne" merge two.part room-2.part -o merged.dlm --complete --quiet
+diff -r room.dlm merged.dlm || fail "the merged light maps differ from those of one bake"
+if command -v mpirun >/dev/null; then
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  expect_exit 0 mpirun --oversubscribe --bind-to none -n 3 "$lucarne" bake -o ranks.dlm --photons 200k --quiet
+  diff -r room.dlm ranks.dlm || fail "the light maps of three MPI ranks differ from those of one process"
+fi
+
 # A point that floats far from everything has no light map: null, and no error.
 echo "1000 1000 1000 0 1 0" >points.txt
 "$lucarne" probe room.dlm --json <points.txt >probe.txt || fail "probe ended with $?"

@@ -8,6 +8,7 @@ packages=(
   libembree-dev libtbb-dev libopenmesh-dev libopenexr-dev libstb-dev
   libcli11-dev libspdlog-dev nlohmann-json3-dev libxxhash-dev
   libglfw3-dev libglm-dev libepoxy-dev libimgui-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
+  libopenmpi-dev openmpi-bin
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 
