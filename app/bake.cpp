@@ -46,6 +46,8 @@ void checkMemory(const BakePlan& plan, int processes) {
 void warnAbout(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options) {
   for (const std::string& what : scene.scene().leftOut) logWarning("not modelled: " + what);
   for (const std::string& light : scene.emitters().dark()) logWarning("light '" + light + "' gives no light");
+  if (options.isa.empty() && scene.rayCaster().isa() != "avx2")
+    logWarning("this processor has no avx2: rays are traced with " + scene.rayCaster().isa() + ", and may differ in rounding from those of other machines");
   if (scene.emitters().empty()) logWarning(sceneName(options) + " has no light: the light maps will be black");
   if (plan.layout.thinned)
     logWarning("density lowered from " + formatNumber(options.texelsPerMetre) + " to " + formatNumber(plan.layout.texelsPerMetre) +
@@ -77,7 +79,7 @@ void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, c
   ProgressLine progress("baking", range.size(), options.quiet || !root);
   progress.startFrom(state.header.photons.count(), state.header.ledger.rays);
   const auto show = [&progress](const RunProgress& p) { progress.update(p.photons, p.rays); };
-  const BakeJob job{{scene, map, plan.tallies, plan.directions}, runOptions(options), range, packed.glb, options.checkpointSeconds, show};
+  const BakeJob job{{scene, map, plan.tallies, plan.directions}, runOptions(options), range, packed.glb, options.checkpointSeconds, writesPart(options) || options.keepPart, show};
   if (mpi != nullptr) {
     mpi->run(job, state, &folder);
   } else {
@@ -101,6 +103,7 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
   if (mpi != nullptr) {
     shareScene(*mpi, packed);
     options.threads = threadsOfRank(*mpi, options);
+    options.ranks = mpi->size();
   }
   std::optional<PhotonScene> scene;
   std::optional<BakePlan> plan;

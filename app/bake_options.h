@@ -34,7 +34,8 @@ struct BakeOptions {
   KernelOptions kernel;
   std::uint64_t seed = 0;
   LightPart light = LightPart::all;
-  int threads = 0;  // 0: all
+  int threads = 0;  // of each process; 0: all
+  int ranks = 1;    // processes that bake together: as the MPI launcher says, not an option
   double checkpointSeconds = 300;  // 0: no states are saved
   bool resume = false;             // go on from a saved state where there is one
   bool keepPart = false;           // the tallies, too, as NAME.part

@@ -76,6 +76,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["left_out"] = leftOut(in.scene, in.plan, in.options.directions);
   report["ray_caster"] = rayCasters(in.header.makers);
   report["threads"] = threadCount(in.options);
+  report["ranks"] = in.options.ranks;
   if (in.baked == nullptr) return report;
   report["map_bytes"] = storedMapBytes(in.baked->maps);
   report["estimated_relative_error"] = estimatedRelativeError(in.baked->maps, in.plan.layout);
@@ -83,7 +84,7 @@ nlohmann::json makeReport(const ReportInput& in) {
 }
 
 nlohmann::json provenanceOf(nlohmann::json report) {
-  for (const char* key : {"seconds", "photons_per_second", "rays_per_second", "threads", "peak_memory_bytes"}) report.erase(key);
+  for (const char* key : {"seconds", "photons_per_second", "rays_per_second", "threads", "ranks", "peak_memory_bytes"}) report.erase(key);
   return report;
 }
 

@@ -35,9 +35,13 @@ nlohmann::json describePart(const std::filesystem::path& path) {
   part.stream({});
   const PartHeader& h = part.header();
   nlohmann::json d = toJson(h);
+  d.erase("tally_sets");  // long; what is in it follows in words
   d["kind"] = "part";
   d["photons"] = h.photons.count();
-  d["photon_ranges"] = d["tally_sets"][0]["ranges"];
+  d["photon_ranges"] = toJson(h.photons);
+  d["seed"] = h.identity.settings.value("seed", nlohmann::json());
+  d["light_entries"] = h.lightEntries;
+  d["texels"] = h.texels;
   d["missing"] = toText(missingPhotons(h));
   d["seconds"] = static_cast<double>(h.microseconds) * 1e-6;
   d["tally_bytes"] = h.tallyBytes();

@@ -20,16 +20,25 @@ CheckpointWriter::CheckpointWriter(const BakeJob& job, CheckpointFolder* folder)
 
 void CheckpointWriter::save(const BakeState& state) {
   const auto start = CheckpointClock::Clock::now();
-  try {
-    folder_->save(state.header, job_.scene, state.tallies);
-  } catch (const Error& error) {
-    logWarning(std::string("no state saved: ") + error.what() + "; the bake goes on and tries again");
-  }
+  trySaving(state);
   clock_.saved(std::chrono::duration<double>(CheckpointClock::Clock::now() - start).count());
 }
 
+void CheckpointWriter::trySaving(const BakeState& state) {
+  try {
+    folder_->save(state.header, job_.scene, state.tallies);
+  } catch (const Error& error) {
+    logWarning(std::string("no state saved: ") + error.what() + "; the bake goes on without");
+  }
+}
+
 void CheckpointWriter::saveLast(const BakeState& state) {
-  if (folder_ != nullptr) folder_->save(state.header, job_.scene, state.tallies);
+  if (folder_ == nullptr) return;
+  if (job_.lastStateIsWanted) {
+    folder_->save(state.header, job_.scene, state.tallies);
+  } else {
+    trySaving(state);
+  }
 }
 
 void TracingTime::addTo(PartHeader& header) {

@@ -14,6 +14,7 @@ struct BakeJob {
   IndexRange range;                     // of photons in all, those of earlier runs included
   std::span<const std::uint8_t> scene;  // packed, as states carry it
   double checkpointSeconds = 300;       // 0: no states
+  bool lastStateIsWanted = false;       // for itself; else it only guards what follows, and failing to save it is no error
   std::function<void(const RunProgress&)> progress;  // photons and rays so far, earlier runs included
 };
 
@@ -28,7 +29,7 @@ struct BakeState {
 IndexRange remaining(const BakeState& state, IndexRange range, const std::string& file);
 
 /// Traces what is left of the job's range, in order, into `state`. Saves a state every checkpointSeconds and at the end; one
-/// that fails on the way is warned of and tried again at the next. `folder` may be null: nothing is saved.
+/// that fails is warned of and tried again at the next. `folder` may be null: nothing is saved.
 void runJob(const BakeJob& job, BakeState& state, CheckpointFolder* folder);
 
 /// Saves states of a running job when they are due.
@@ -38,10 +39,12 @@ class CheckpointWriter {
   bool due() const { return folder_ != nullptr && clock_.due(); }
   /// `state` is whole. A failure is warned of.
   void save(const BakeState& state);
-  /// The end of the job: a failure is an Error.
+  /// At the end of the job: a failure is an Error where the job wants the state for itself.
   void saveLast(const BakeState& state);
 
  private:
+  void trySaving(const BakeState& state);
+
   const BakeJob& job_;
   CheckpointFolder* folder_;
   CheckpointClock clock_;

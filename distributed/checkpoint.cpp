@@ -37,7 +37,9 @@ std::string stateName(std::uint64_t number) {
 }  // namespace
 
 CheckpointFolder::~CheckpointFolder() {
-  if (lock_ >= 0) ::close(lock_);
+  if (lock_ < 0) return;
+  if (states().empty()) remove();  // a bake that failed before its first state leaves nothing
+  ::close(lock_);
 }
 
 void CheckpointFolder::open() {
