@@ -48,15 +48,21 @@ void checkMemory(const PartHeader& whole, bool resolves) {
   throw Error(ExitCode::outOfResource, "merging needs " + formatBytes(needed) + " of memory and " + formatBytes(available) + " are free; --verify needs none");
 }
 
-void tellOf(const PartHeader& whole, bool complete) {
+/// What is unusual about the sum. Photons missing from a part are no news: more parts may follow.
+void tellOf(const PartHeader& whole, const MergeOptions& options, const fs::path& folder) {
   if (const std::string warning = makersWarning(whole.makers); !warning.empty()) logWarning(warning);
-  const std::string gaps = describeGaps(whole, complete ? "--complete wants them all" : "the result is valid with more noise");
+  const std::string gaps = describeGaps(whole);
   if (gaps.empty()) return;
-  if (complete) throw Error(ExitCode::mergeRefused, gaps);
-  logWarning(gaps);
+  const std::string mend = "; bake them with: " + commandsForGaps(whole, folder);
+  if (options.complete) throw Error(ExitCode::mergeRefused, gaps + ", and --complete wants them all" + mend);
+  if (toPart(options)) {
+    logInfo("so far " + gaps);
+  } else {
+    logWarning(gaps + "; the result is valid with more noise" + mend);
+  }
 }
 
-/// Tells once a second how much has been read.
+/// Tells now and then how much has been read.
 class ReadingRate {
  public:
   explicit ReadingRate(std::uint64_t bytes) : whole_(bytes) {}
@@ -116,7 +122,7 @@ nlohmann::json merge(const MergeOptions& options) {
   checkOutput(options, files);
   PartSet parts = joinParts(files, !options.kernel && !options.kernelWidth);
   PartHeader& whole = parts.whole;
-  tellOf(whole, options.complete);
+  tellOf(whole, options, files[0].parent_path());
   ReadingRate rate((whole.tallyBytes() + whole.sceneBytes) * files.size());
   nlohmann::json report;
   if (!options.output) {

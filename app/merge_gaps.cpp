@@ -32,10 +32,11 @@ std::string stemOf(const std::string& sceneName) {
 
 /// Commands for at most kMostCommands pieces, and how many more there are.
 template <class Piece>
-std::string commands(const PartHeader& whole, const std::vector<Piece>& pieces, const auto& nameOf, const auto& optionOf) {
+std::string commands(const PartHeader& whole, const std::filesystem::path& folder, const std::vector<Piece>& pieces, const auto& nameOf,
+                     const auto& optionOf) {
   std::string text;
   for (std::size_t i = 0; i < std::min(pieces.size(), kMostCommands); ++i) {
-    const std::string output = stemOf(whole.sceneName) + "-" + nameOf(pieces[i]) + ".part";
+    const std::string output = (folder / (stemOf(whole.sceneName) + "-" + nameOf(pieces[i]) + ".part")).string();
     text += (i == 0 ? "" : " && ") + bakeCommand(whole, output, optionOf(pieces[i]));
   }
   if (pieces.size() > kMostCommands) text += " … and " + std::to_string(pieces.size() - kMostCommands) + " more like these";
@@ -48,23 +49,23 @@ IndexSet missingPhotons(const PartHeader& whole) {
   return whole.photons.missing({0, std::max(whole.planned.photons, whole.photons.end())});
 }
 
-std::string describeGaps(const PartHeader& whole, const std::string& consequence) {
+std::string describeGaps(const PartHeader& whole) {
   const IndexSet missing = missingPhotons(whole);
   if (missing.empty()) return {};
   const std::vector<std::uint64_t> parts = missingParts(whole, missing);
-  std::string text;
-  if (!parts.empty()) {
-    text = std::to_string(parts.size()) + " of " + std::to_string(whole.planned.parts) + " parts missing, ";
-  }
-  text += "photons " + toText(missing) + (parts.empty() ? " missing" : "") + "; " + consequence + "; bake them with: ";
-  if (!parts.empty()) {
-    return text + commands(
-                      whole, parts, [](std::uint64_t k) { return std::to_string(k); },
-                      [&](std::uint64_t k) { return "--part " + std::to_string(k) + "/" + std::to_string(whole.planned.parts); });
+  if (parts.empty()) return "photons " + toText(missing) + " missing";
+  return std::to_string(parts.size()) + " of " + std::to_string(whole.planned.parts) + " parts missing, photons " + toText(missing);
+}
+
+std::string commandsForGaps(const PartHeader& whole, const std::filesystem::path& folder) {
+  const IndexSet missing = missingPhotons(whole);
+  if (const std::vector<std::uint64_t> parts = missingParts(whole, missing); !parts.empty()) {
+    const auto option = [&](std::uint64_t k) { return "--part " + std::to_string(k) + "/" + std::to_string(whole.planned.parts); };
+    return commands(whole, folder, parts, [](std::uint64_t k) { return std::to_string(k); }, option);
   }
   const auto from = [](const IndexRange& r) { return "from-" + formatExactCount(r.begin); };
   const auto range = [](const IndexRange& r) { return "--photon-range " + formatExactCount(r.begin) + ":" + formatExactCount(r.end); };
-  return text + commands(whole, missing.ranges(), from, range);
+  return commands(whole, folder, missing.ranges(), from, range);
 }
 
 }  // namespace lucarne

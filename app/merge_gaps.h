@@ -1,6 +1,7 @@
 // What is missing from a merge, in words.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "distributed/part_header.h"
@@ -10,8 +11,10 @@ namespace lucarne {
 /// The photons of the whole bake, as far as it was said, that the parts do not hold.
 IndexSet missingPhotons(const PartHeader& whole);
 
-/// "3 of 16 parts missing, photons 5M..7.5M; CONSEQUENCE; bake them with: lucarne bake …", in one line. Empty where nothing
-/// is missing.
-std::string describeGaps(const PartHeader& whole, const std::string& consequence);
+/// "3 of 16 parts missing, photons 5M..7.5M". Empty where nothing is missing.
+std::string describeGaps(const PartHeader& whole);
+
+/// The commands that bake what is missing into parts in `folder`, in one line.
+std::string commandsForGaps(const PartHeader& whole, const std::filesystem::path& folder);
 
 }  // namespace lucarne

@@ -150,7 +150,7 @@ PartReader::PartReader(const std::filesystem::path& path)
   // Before anything of that size is made: a layer takes at least its bytes in the file.
   const std::uint64_t size = file_.size();
   if (header_.sceneBytes > size || header_.lightEntries > size / 24 || header_.texels > size / 16) {
-    throw PartError(path.string() + " is cut short: it has " + std::to_string(size) + " bytes of more");
+    throw PartError(path.string() + " is cut short: it has " + std::to_string(size) + " bytes, fewer than its tallies take");
   }
   rows_ = partRows(header_, path.string());
   const std::uint64_t whole = rows_.fileBytes() + kSealBytes;

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# slurm-array.sh SCENE OUT.dlm N [BAKE OPTION…]: bakes SCENE as a Slurm job array of N parts, and merges them in a second job
-# that waits for the first. Prints the ids of both. SCENE - is the built-in room.
+# slurm-array.sh SCENE OUT.dlm N [BAKE OPTION…]: bakes SCENE as a Slurm job array of N parts, and merges them in a
+# second job that waits for the first. Prints the ids of both. SCENE - is the built-in room.
 #
-# The parts and the logs lie in OUT.parts/. A part that is there is not baked again, and one that was begun goes on from its
-# checkpoint: after a failure, submit the same command again. What the nodes need is a common file system.
+# The parts and the logs lie in OUT.parts/. A part that is there is not baked again, and one that was begun goes on from
+# its checkpoint: after a failure, submit the same command again. What the nodes need is a common file system.
 #
 #   LUCARNE         the program, as the nodes see it (default: the one built here)
 #   LUCARNE_SBATCH  options for sbatch, e.g. "--partition=long --time=8:00:00 --cpus-per-task=32"
@@ -16,7 +16,7 @@ usage() {
 
 die() {
   echo "slurm-array: $*" >&2
-  exit "${code:-1}"
+  exit 1
 }
 
 # default_option NAME VALUE: unless the user gave it.
@@ -37,40 +37,43 @@ claim_folder() {
     die "$parts holds the parts of another bake (see bake.txt there); remove it, or take another name"
 }
 
-# afterany and not afterok: when a task fails for good, a job that waits for afterok stays in the queue for ever and tells nothing,
-# while this one runs, names the photons that are missing, and ends with an error (--complete).
+# afterany and not afterok: when a task fails for good, a job that waits for afterok stays in the queue for ever and
+# tells nothing, while this one runs, names the photons that are missing, and ends with an error (--complete).
 submit() {
   local array merge self
   local sbatch=(sbatch --parsable --requeue --open-mode=append)
   # shellcheck disable=SC2206 # several options in one variable
-  sbatch+=(${LUCARNE_SBATCH:-})
+  local more=(${LUCARNE_SBATCH:-})
   command -v sbatch >/dev/null || die "there is no sbatch here (Debian: slurm-client)"
   [ "$scene" = - ] || scene=$(realpath -e "$scene")
   [[ "$lucarne" != */* ]] || lucarne=$(realpath -e "$lucarne")
   self=$(realpath "$0")
   claim_folder
-  # USR1 comes to the script two minutes before the time limit: it then saves and queues itself again.
-  array=$("${sbatch[@]}" --job-name="lucarne-${name##*/}" --array="1-$count" --signal=B:USR1@120 --output="$parts/%a.log" \
-    "$self" --run-part "$lucarne" "$scene" "$out" "$count" "${options[@]}")
+  # USR1 comes to the script two minutes before the time limit: it then ends the bake and queues the task again.
+  array=$("${sbatch[@]}" --job-name="lucarne-${name##*/}" --array="1-$count" --signal=B:USR1@120 \
+    --output="$parts/%a.log" "${more[@]}" "$self" --run-part "$lucarne" "$scene" "$out" "$count" "${options[@]}")
   merge=$("${sbatch[@]}" --job-name="lucarne-${name##*/}-merge" --dependency="afterany:${array%%;*}" \
-    --output="$parts/merge.log" "$self" --run-merge "$lucarne" "$scene" "$out" "$count" "${options[@]}")
+    --output="$parts/merge.log" "${more[@]}" "$self" --run-merge "$lucarne" "$scene" "$out" "$count" "${options[@]}")
   echo "array ${array%%;*}"
   echo "merge ${merge%%;*}"
   echo "slurm-array: logs are in $parts; merge.log has the result" >&2
 }
 
-# One task of the array. Slurm sends TERM to every process when it cancels, preempts or requeues a task: the program then saves
-# its state, and this shell has to live until it has.
+states() { ls -l --full-time "$1"/*.part 2>/dev/null || true; }
+
+# One task of the array. When Slurm cancels, preempts or requeues it, every process gets TERM; the shell outlives the
+# program.
 run_part() {
-  local k=$SLURM_ARRAY_TASK_ID status=0 limit_near=false
+  local k=$SLURM_ARRAY_TASK_ID status=0 limit_near=false before
   if [ -f "$parts/$k.part" ] && "$lucarne" merge "$parts/$k.part" --verify; then
     echo "slurm-array: part $k of $count is already there"
     return
   fi
+  rm -f "$parts/$k.part"
   default_option --threads "$SLURM_CPUS_ON_NODE"
-  default_option --checkpoint 5m
+  before=$(states "$parts/$k.checkpoint")
   trap : TERM
-  trap 'limit_near=true; kill -TERM "$bake"' USR1
+  trap 'limit_near=true; kill -TERM "$bake" || true' USR1
   "$lucarne" bake "${scene_argument[@]}" -o "$parts/$k.part" --part "$k/$count" --resume "${options[@]}" &
   bake=$!
   # A signal ends a wait early.
@@ -79,22 +82,20 @@ run_part() {
     status=0
     wait "$bake" || status=$?
   done
-  if [ "$status" -eq 130 ] && $limit_near; then
-    echo "slurm-array: part $k of $count is saved at the time limit and queued again"
-    scontrol requeue "${SLURM_ARRAY_JOB_ID}_$k"
-  fi
-  return "$status"
+  [ "$status" -ne 0 ] && $limit_near || return "$status"
+  # Without this it could go on so for ever.
+  [ "$before" != "$(states "$parts/$k.checkpoint")" ] ||
+    die "nothing was saved within the time limit; give more time, or a shorter --checkpoint"
+  echo "slurm-array: part $k of $count meets the time limit; queued again, it goes on from its checkpoint"
+  scontrol requeue "${SLURM_ARRAY_JOB_ID}_$k"
 }
 
 run_merge() {
-  local k files=()
+  local k
   for ((k = 1; k <= count; ++k)); do
-    [ ! -f "$parts/$k.part" ] || files+=("$parts/$k.part")
     [ -f "$parts/$k.part" ] || echo "slurm-array: part $k of $count is missing; its log is $parts/$k.log"
   done
-  [ ${#files[@]} -gt 0 ] || die "no part was baked"
-  printf '%s\n' "${files[@]}" >"$parts/list.txt"
-  "$lucarne" merge "@$parts/list.txt" -o "$out" --complete
+  "$lucarne" merge "$parts" -o "$out" --complete
 }
 
 top=$(realpath -m "$(dirname "$0")/../..")

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# ssh-machines.sh SCENE.glb OUT.dlm HOST… [-- BAKE OPTION…]: bakes SCENE.glb on several machines over ssh, one part each, and
-# merges the parts here. SCENE - is the built-in room. Each HOST is what ssh understands and must let you in without a question.
+# ssh-machines.sh SCENE.glb OUT.dlm HOST… [-- BAKE OPTION…]: bakes SCENE.glb on several machines over ssh, one part
+# each, and merges the parts here. SCENE - is the built-in room. Each HOST is what ssh understands and must let you in
+# without a question.
 #
-# When a machine dies, the parts of the others are merged and the missing one is named; the exit code is 1. The same command
-# again bakes only what is missing: where it was begun, from its checkpoint, or, when that machine is gone or no longer
-# listed, on another. Bakes survive a lost connection; Ctrl-C stops them, and they keep their state for the next run.
-# Parts lie in OUT.parts/ here, and in LUCARNE_REMOTE_FOLDER on the machines until all are merged.
+# When a machine dies, the parts of the others are merged and the missing one is named; the exit code is 1. The same
+# command again bakes only what is missing: where it was begun, from its checkpoint, or, when that machine is gone or no
+# longer listed, on another. Bakes survive a lost connection; Ctrl-C stops them, and they keep their state for the next
+# run. Parts lie in OUT.parts/ here, and in LUCARNE_REMOTE_FOLDER on the machines until all are merged.
 #
 #   LUCARNE                the program here, for merging (default: the one built here)
 #   LUCARNE_REMOTE         the program on the machines, its name or absolute path (default: lucarne)
@@ -29,7 +30,8 @@ die() {
 
 # A machine that goes silent is given up after a minute. The first value given counts, so the user's options come first.
 # shellcheck disable=SC2206 # several options in one variable
-ssh_options=(${LUCARNE_SSH_OPTIONS:-} -o BatchMode=yes -o ConnectTimeout=10 -o ServerAliveInterval=15 -o ServerAliveCountMax=4)
+ssh_options=(${LUCARNE_SSH_OPTIONS:-} -o BatchMode=yes -o ConnectTimeout=10)
+ssh_options+=(-o ServerAliveInterval=15 -o ServerAliveCountMax=4)
 
 # remote HOST COMMAND WORD…: quotes the words for the shell over there.
 remote() {
@@ -38,16 +40,8 @@ remote() {
   ssh -n "${ssh_options[@]}" "$host" "$(printf '%q ' "$@")"
 }
 
-# default_option NAME VALUE: unless the user gave it.
-default_option() {
-  case " ${options[*]} " in
-    *" $1 "* | *" $1="*) ;;
-    *) options+=("$1" "$2") ;;
-  esac
-}
-
-# Old parts would merge into the old light maps without a word when the scene or an option has changed. The number of parts is
-# that of the first run, so that another list of machines can finish what one began.
+# Old parts would merge into the old light maps without a word when the scene or an option has changed. The number of
+# parts is that of the first run, so that another list of machines can finish what one began.
 claim_folder() {
   local bake
   mkdir -p "$parts"
@@ -57,7 +51,8 @@ claim_folder() {
   [ -f "$parts/bake.txt" ] || echo "$bake" >"$parts/bake.txt"
   [ "$bake" = "$(cat "$parts/bake.txt")" ] ||
     die "$parts holds the parts of another bake (see bake.txt there); remove it, or take another name"
-  folder=${LUCARNE_REMOTE_FOLDER:-lucarne-bakes}/$(basename "$name" | tr -c 'A-Za-z0-9._\n' _)-$(sha256sum <<<"$bake" | head -c 12)
+  folder=${LUCARNE_REMOTE_FOLDER:-lucarne-bakes}/$(basename "$name" | tr -c 'A-Za-z0-9._\n' _)
+  folder+=-$(sha256sum <<<"$bake" | head -c 12)
 }
 
 is_there() { [ -f "$parts/$1.part" ] && "$lucarne" merge "$parts/$1.part" --verify >/dev/null 2>&1; }
@@ -76,7 +71,8 @@ prepare() {
 
 bring_scene() {
   local host=$1
-  remote "$host" sh -c 'cd "$0" && echo "$1  scene.glb" | sha256sum --check --status' "$folder" "$scene_sum" 2>/dev/null && return
+  remote "$host" sh -c 'cd "$0" && echo "$1  scene.glb" | sha256sum --check --status' "$folder" "$scene_sum" \
+    2>/dev/null && return
   scp -q "${ssh_options[@]}" "$scene" "$host:$folder/scene.glb.new" &&
     remote "$host" mv "$folder/scene.glb.new" "$folder/scene.glb"
 }
@@ -97,8 +93,9 @@ deal() {
   echo "$least"
 }
 
-# Runs on the machine, by its sh, in the bake's folder. A bake whose connection was lost may still be running: it holds the lock,
-# and the wait for it ends with its part done. Output goes to a file, since a broken connection would end a bake that writes to it.
+# Runs on the machine, by its sh, in the bake's folder. A bake whose connection was lost may still be running: it holds
+# the lock, and the wait for it ends with its part done. Output goes to a file, since a broken connection would end a
+# bake that writes to it.
 bake_there='
 cd "$1" || exit 1
 k=$2
@@ -113,14 +110,15 @@ stop_there='cd "$0" && for k; do [ ! -f "$k.pid" ] || flock -n "$k.lock" true ||
 
 # One machine: its parts, one after the other.
 work() {
-  local host=$1 k scene_argument=()
+  local host=$1 k why scene_argument=()
   [ "$scene" = - ] || scene_argument=(scene.glb)
   while read -r k; do
     echo "$host" >"$parts/$k.host"
     say "part $k of $count begins on $host"
     if ! remote "$host" sh -c "$bake_there" sh "$folder" "$k" \
       "$remote_lucarne" bake "${scene_argument[@]}" -o "$k.part" --part "$k/$count" --resume "${options[@]}"; then
-      say "part $k of $count failed on $host: $(remote "$host" tail -n 1 "$folder/$k.log" 2>/dev/null || echo "$host is silent")"
+      why=$(remote "$host" tail -n 1 "$folder/$k.log" 2>/dev/null || echo "$host is silent")
+      say "part $k of $count failed on $host: $why"
       return 1
     fi
     fetch "$host" "$k" || {
@@ -133,7 +131,10 @@ work() {
 
 # Under its name a part is always whole.
 fetch() {
-  scp -q "${ssh_options[@]}" "$1:$folder/$2.part" "$parts/$2.fetching" && mv "$parts/$2.fetching" "$parts/$2.part" && is_there "$2"
+  scp -q "${ssh_options[@]}" "$1:$folder/$2.log" "$parts/$2.log"
+  scp -q "${ssh_options[@]}" "$1:$folder/$2.part" "$parts/$2.fetching" &&
+    mv "$parts/$2.fetching" "$parts/$2.part" &&
+    is_there "$2"
 }
 
 stop_all() {
@@ -239,7 +240,6 @@ while [ $# -gt 0 ] && [ "$1" != -- ]; do
 done
 [ ${#hosts[@]} -gt 0 ] || usage
 options=("${@:2}")
-default_option --checkpoint 5m
 lucarne=${LUCARNE:-$(realpath -m "$(dirname "$0")/../..")/build/release/cli/lucarne}
 remote_lucarne=${LUCARNE_REMOTE:-lucarne}
 # A .gltf has its data in other files, which would stay here.

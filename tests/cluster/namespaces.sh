@@ -1,6 +1,8 @@
 # shellcheck shell=bash
-# Several machines on one, for the tests here to source: network namespaces on a bridge, each with a host name, a home folder and
-# an sshd of its own. All of it lives in namespaces of the test: it can reach nothing outside, and nothing there is seen or changed.
+# Several machines on one, for the tests here to source: network namespaces on a bridge, each with a host name, a home
+# folder and an sshd of its own. All of it lives in namespaces of the test: it can reach nothing outside, and nothing
+# there is seen or changed.
+# shellcheck disable=SC2154 # the tests set lucarne and scene
 
 test_name=$(basename "$0" .sh)
 head_address=10.99.0.254 # this shell's end of the bridge
@@ -33,9 +35,9 @@ need_namespaces() {
   "${namespaces[@]}" ip link add bridge0 type bridge 2>/dev/null || skip "this kernel makes no bridges"
 }
 
-# isolate SECONDS ARGUMENT…: runs this script again, as the first process of its own namespaces, and there returns. When that
-# process ends, the kernel ends all others in the namespaces and takes the networks away; and it ends with the test, even with
-# one that was killed. So nothing outlives the test.
+# isolate SECONDS ARGUMENT…: runs this script again, as the first process of its own namespaces, and there returns. When
+# that process ends, the kernel ends all others in the namespaces and takes the networks away; and it ends with the
+# test, even with one that was killed. So nothing outlives the test.
 isolate() {
   local limit=$1 status=0
   shift
@@ -70,8 +72,10 @@ make_machines() {
   echo 'root:*:19000:0:99999:7:::' >"$folder/shadow"
   chmod 600 "$folder/shadow"
   mount --bind "$folder/shadow" /etc/shadow
-  { echo "127.0.0.1 localhost" && echo "$head_address head" && for ((i = 1; i <= $1; ++i)); do echo "10.99.0.$i m$i"; done; } \
-    >"$folder/hosts"
+  printf '%s\n' "127.0.0.1 localhost" "$head_address head" >"$folder/hosts"
+  for ((i = 1; i <= $1; ++i)); do
+    echo "10.99.0.$i m$i" >>"$folder/hosts"
+  done
   mount --bind "$folder/hosts" /etc/hosts
   hostname head
   ip link set lo up
@@ -99,8 +103,8 @@ on_machine() {
   local name=$1
   shift
   # shellcheck disable=SC2016 # for the inner shell
-  exec ip netns exec "$name" unshare --uts --mount sh -c 'hostname "$1" && mount --bind "$2" "$HOME" && shift 2 && exec "$@"' \
-    sh "$name" "$folder/$name/home" "$@"
+  exec ip netns exec "$name" unshare --uts --mount \
+    sh -c 'hostname "$1" && mount --bind "$2" "$HOME" && shift 2 && exec "$@"' sh "$name" "$folder/$name/home" "$@"
 }
 
 # Keys of this test alone, and $folder/ssh_config to use them.
@@ -158,17 +162,33 @@ within() {
   done
 }
 
+# photons_for SECONDS: as many as one thread traces in so long, so that with any build there is a middle to be killed
+# in. The best of three tries counts, since others may be at work on this machine.
+photons_for() {
+  local rate best=0
+  for _ in 1 2 3; do
+    "$lucarne" bake "$scene" -o "$folder/rate.dlm" --photons 400k --density 4 --threads 1 --quiet \
+      --report "$folder/rate.json"
+    rate=$(sed -nE 's/.*"photons_per_second": ?([0-9]+).*/\1/p' "$folder/rate.json")
+    [ "$rate" -le "$best" ] || best=$rate
+  done
+  echo $((best * $1 / 1000000 + 1))M
+}
+
+# has_state CHECKPOINT_FOLDER: something is saved there.
+has_state() { compgen -G "$1/*.part" >/dev/null; }
+
 # content_hash FILE, by the program $lucarne
 content_hash() {
   local hash
-  # shellcheck disable=SC2154 # the tests set it
   hash=$("$lucarne" info "$1" --json | sed -nE 's/.*"content_hash": ?"([0-9a-f]{32})".*/\1/p')
   [ -n "$hash" ] || fail "no content_hash of $1"
   echo "$hash"
 }
 
 expect_same_hash() {
-  [ "$(content_hash "$1")" = "$(content_hash "$2")" ] || fail "$1 differs from $2: $(content_hash "$1") $(content_hash "$2")"
+  [ "$(content_hash "$1")" = "$(content_hash "$2")" ] ||
+    fail "$1 differs from $2: $(content_hash "$1") $(content_hash "$2")"
 }
 
 # expect_text PATTERN FILE

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# slurm_test.sh LUCARNE: scripts/cluster/slurm-array.sh and slurm-mpi.sh on a Slurm of two machines (see namespaces.sh), started
-# here for the test, with a task of the array requeued in the middle. Ends with 77 where something it needs is missing.
+# slurm_test.sh LUCARNE: scripts/cluster/slurm-array.sh and slurm-mpi.sh on a Slurm of two machines (see namespaces.sh),
+# started here for the test, with a task of the array requeued in the middle. Ends with 77 where something it needs is
+# missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 # shellcheck source=tests/cluster/namespaces.sh
@@ -21,7 +22,7 @@ isolate 175 "$lucarne"
 
 recipes=$here/../../scripts/cluster
 scene=$here/../../scenes/two_lamps.glb
-bake_options=(--photons "${LUCARNE_TEST_PHOTONS:-4M}" --density 4)
+bake_options=(--photons "$(photons_for 16)" --density 4)
 export LUCARNE=$lucarne SLURM_CONF=$folder/slurm.conf
 
 # One munged for all: its socket is a file, and files are common to the machines.
@@ -32,8 +33,9 @@ start_munge() {
   chmod 600 "$folder/munge/key"
   chown -R munge: "$folder/munge" /run/munge
   chmod 711 "$folder"
-  setpriv --reuid munge --regid munge --clear-groups munged --key-file="$folder/munge/key" --socket=/run/munge/munge.socket.2 \
-    --pid-file=/run/munge/munged.pid --log-file="$folder/munge/log" --seed-file="$folder/munge/seed"
+  setpriv --reuid munge --regid munge --clear-groups munged --key-file="$folder/munge/key" \
+    --socket=/run/munge/munge.socket.2 --pid-file=/run/munge/munged.pid \
+    --log-file="$folder/munge/log" --seed-file="$folder/munge/seed"
   within 15 sh -c 'munge -n | unmunge >/dev/null 2>&1' || fail "no munged: $(cat "$folder/munge/log")"
 }
 
@@ -100,7 +102,8 @@ expect_end() {
 # submit_array OUT OPTION…: sets array and merge, the jobs' ids.
 submit_array() {
   local ids
-  ids=$("$recipes/slurm-array.sh" "$scene" "$@" 2>"$folder/submit.log") || fail "not submitted: $(cat "$folder/submit.log")"
+  ids=$("$recipes/slurm-array.sh" "$scene" "$@" 2>"$folder/submit.log") ||
+    fail "not submitted: $(cat "$folder/submit.log")"
   array=$(awk '$1 == "array" { print $2 }' <<<"$ids")
   merge=$(awk '$1 == "merge" { print $2 }' <<<"$ids")
 }
@@ -108,26 +111,29 @@ submit_array() {
 # Three parts on four CPUs; the second is requeued when it has saved something, and the merge waits for it all the same.
 bake_array() {
   local parts=$folder/array.parts
-  submit_array "$folder/array.dlm" 3 "${bake_options[@]}" --checkpoint 1s
-  within 60 test -d "$parts/2.checkpoint" || fail "task 2 saved nothing: $(squeue -l) $(cat "$parts"/*.log)"
+  submit_array "$folder/array.dlm" 3 "${bake_options[@]}" --checkpoint 0.3s
+  within 60 has_state "$parts/2.checkpoint" || fail "task 2 saved nothing: $(squeue -l) $(cat "$parts"/*.log)"
   scontrol requeue "${array}_2"
   note "task 2 is requeued"
   expect_end "$merge" COMPLETED "$parts/merge.log"
-  scontrol show job "${array}_2" | grep -q 'Restarts=1' || fail "task 2 was not restarted: $(scontrol show job "${array}_2")"
+  scontrol show job "${array}_2" | grep -q 'Restarts=1' ||
+    fail "task 2 was not restarted: $(scontrol show job "${array}_2")"
+  expect_text 'going on from' "$parts/2.log"
   expect_same_hash "$folder/array.dlm" "$folder/single.dlm"
 }
 
-# A cancelled task is not baked. The merge job ends with an error that names the gap, and the same command bakes only that.
+# A cancelled task is not baked. The merge job ends with an error that names the gap, and the same command bakes only
+# that.
 cancel_and_submit_again() {
   local parts=$folder/cancelled.parts before
-  submit_array "$folder/cancelled.dlm" 2 "${bake_options[@]}" --checkpoint 1s
-  within 60 test -d "$parts/2.checkpoint" || fail "task 2 saved nothing: $(squeue -l) $(cat "$parts"/*.log)"
+  submit_array "$folder/cancelled.dlm" 2 "${bake_options[@]}" --checkpoint 0.3s
+  within 60 has_state "$parts/2.checkpoint" || fail "task 2 saved nothing: $(squeue -l) $(cat "$parts"/*.log)"
   scancel "${array}_2"
   expect_end "$merge" FAILED "$parts/merge.log"
   expect_text 'part 2 of 2 is missing' "$parts/merge.log"
   [ ! -e "$folder/cancelled.dlm" ] || fail "light maps with a gap were written: $(cat "$parts/merge.log")"
   before=$(stat -c %Y.%i "$parts/1.part")
-  submit_array "$folder/cancelled.dlm" 2 "${bake_options[@]}" --checkpoint 1s
+  submit_array "$folder/cancelled.dlm" 2 "${bake_options[@]}" --checkpoint 0.3s
   expect_end "$merge" COMPLETED "$parts/merge.log"
   [ "$before" = "$(stat -c %Y.%i "$parts/1.part")" ] || fail "part 1 was baked twice"
   expect_same_hash "$folder/cancelled.dlm" "$folder/single.dlm"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ssh_test.sh LUCARNE: scripts/cluster/ssh-machines.sh over four machines (see namespaces.sh), one of which dies in the middle.
-# Ends with 77 where something it needs is missing.
+# ssh_test.sh LUCARNE: scripts/cluster/ssh-machines.sh over four machines (see namespaces.sh), one of which dies in the
+# middle. Ends with 77 where something it needs is missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 # shellcheck source=tests/cluster/namespaces.sh
@@ -18,7 +18,7 @@ isolate 170 "$lucarne"
 
 recipe=$here/../../scripts/cluster/ssh-machines.sh
 scene=$here/../../scenes/two_lamps.glb
-bake_options=(--photons "${LUCARNE_TEST_PHOTONS:-4M}" --density 4 --threads 1)
+bake_options=(--photons "$(photons_for 16)" --density 4 --threads 1)
 export LUCARNE=$lucarne LUCARNE_REMOTE=$lucarne
 export LUCARNE_SSH_OPTIONS="-F $folder/ssh_config -o ConnectTimeout=3 -o ServerAliveInterval=1 -o ServerAliveCountMax=3"
 
@@ -26,7 +26,7 @@ export LUCARNE_SSH_OPTIONS="-F $folder/ssh_config -o ConnectTimeout=3 -o ServerA
 run_recipe() {
   local log=$1
   shift
-  "$recipe" "$scene" "$folder/shared.dlm" "$@" -- "${bake_options[@]}" --checkpoint 1s >"$log" 2>&1
+  "$recipe" "$scene" "$folder/shared.dlm" "$@" -- "${bake_options[@]}" --checkpoint 0.3s >"$log" 2>&1
 }
 
 work_of() { compgen -G "$folder/$1/home/lucarne-bakes/*/$2" >/dev/null; }
@@ -36,7 +36,7 @@ die_in_the_middle() {
   local run log=$folder/first.log status=0
   run_recipe "$log" m1 m2 m3 m4 &
   run=$!
-  within 60 work_of m2 '*.checkpoint' || fail "m2 saved nothing: $(cat "$log")"
+  within 60 work_of m2 '2.checkpoint/*.part' || fail "m2 saved nothing: $(cat "$log")"
   machine_dies m2
   note "m2 is dead"
   wait "$run" || status=$?
@@ -47,7 +47,8 @@ die_in_the_middle() {
   done
   [ ! -f "$folder/shared.parts/2.part" ] || fail "m2 was done before it died: the test needs more photons"
   [ -d "$folder/shared.dlm" ] || fail "the other parts were not merged: $(cat "$log")"
-  ! [ "$(content_hash "$folder/shared.dlm")" = "$(content_hash "$folder/single.dlm")" ] || fail "the gap makes no difference"
+  ! [ "$(content_hash "$folder/shared.dlm")" = "$(content_hash "$folder/single.dlm")" ] ||
+    fail "the gap makes no difference"
 }
 
 # The machine is back, with its disk: it alone works, and goes on from its checkpoint.
@@ -60,6 +61,7 @@ return_and_rerun() {
   [ "$before" = "$(stat -c %Y.%i "$folder"/shared.parts/[134].part)" ] || fail "parts were baked twice"
   [ "$(grep -c 'begins on' "$log")" -eq 1 ] || fail "more than one part was baked: $(cat "$log")"
   expect_text 'part 2 of 4 begins on m2' "$log"
+  expect_text 'going on from' "$folder/shared.parts/2.log"
   expect_same_hash "$folder/shared.dlm" "$folder/single.dlm"
   ! work_of m2 '*' || fail "files are left on m2"
 }
@@ -88,19 +90,19 @@ replace_a_machine() {
 
 bakes_on() { ip netns pids "$1" | xargs -r ps -o args= -p | grep -q "bake scene.glb"; }
 
-# Stopped by hand, the recipe stops the bakes on the machines. Ended without a chance to do so, as when a laptop is closed, it
-# leaves them to work. The next run collects.
+# Stopped by hand, the recipe stops the bakes on the machines. Ended without a chance to do so, as when a laptop is
+# closed, it leaves them to work. The next run collects.
 stop_and_go_on() {
   local run status=0 log=$folder/stopped.log
-  local command=("$recipe" "$scene" "$folder/stopped.dlm" m3 m4 -- "${bake_options[@]}" --checkpoint 1s)
+  local command=("$recipe" "$scene" "$folder/stopped.dlm" m3 m4 -- "${bake_options[@]}" --checkpoint 0.3s)
   "${command[@]}" >"$log" 2>&1 &
   run=$!
-  within 60 work_of m3 '*.checkpoint' || fail "m3 saved nothing: $(cat "$log")"
+  within 60 work_of m3 '1.checkpoint/*.part' || fail "m3 saved nothing: $(cat "$log")"
   kill -TERM "$run"
   wait "$run" || status=$?
   [ "$status" -eq 130 ] || fail "exit code $status when stopped: $(cat "$log")"
   ! bakes_on m3 || fail "a stopped bake goes on"
-  work_of m3 '1.checkpoint' || fail "the state was not kept"
+  work_of m3 '1.checkpoint/*.part' || fail "the state was not kept"
 
   "${command[@]}" >>"$log" 2>&1 &
   run=$!
