@@ -32,10 +32,9 @@ PackedScene load(const BakeOptions& options) {
   return {std::move(glb), std::move(scene)};
 }
 
-/// Maps take at most half of what the tallies do; they exist together while resolving, in one process. `processes` of them
-/// share the machine's memory.
+/// Tallies and maps exist together while resolving, in one process. `processes` of them share the machine's memory.
 void checkMemory(const BakePlan& plan, int processes) {
-  const std::uint64_t needed = plan.tallies.bytes() * static_cast<std::uint64_t>(processes) + plan.tallies.bytes() / 2;
+  const std::uint64_t needed = plan.tallies.bytes() * static_cast<std::uint64_t>(processes) + memoryOfMaps(plan.tallies.bytes());
   const std::uint64_t available = availableMemoryBytes();
   if (needed <= available) return;
   throw Error(ExitCode::outOfResource, "light maps need " + formatBytes(needed) + " and " + formatBytes(available) +

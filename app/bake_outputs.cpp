@@ -59,13 +59,15 @@ nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, con
   if (maps || options.report) {
     baked = resolveBake(packed.scene, plan, options, header.identity.emittedFlux, header.ledger, state.tallies);
   }
-  const nlohmann::json report = makeReport({options, packed.scene, plan, header, baked ? &*baked : nullptr});
+  nlohmann::json report = makeReport({options, packed.scene, plan, header, baked ? &*baked : nullptr});
   if (maps) {
     removeTemporaries(resolveTarget(options.output));
     writeDlm(options.output, packed.scene, baked->uv, baked->maps, provenanceOf(report), options.format);
   }
   if (!maps || options.keepPart) publishPart(options, packed, state, folder);
   folder.remove();
+  report["checkpoints"] = state.checkpoints;
+  report["checkpoint_seconds"] = state.checkpointSeconds;
   return writeReport(options, report);
 }
 

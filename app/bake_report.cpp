@@ -84,7 +84,7 @@ nlohmann::json makeReport(const ReportInput& in) {
 }
 
 nlohmann::json provenanceOf(nlohmann::json report) {
-  for (const char* key : {"seconds", "photons_per_second", "rays_per_second", "threads", "ranks", "peak_memory_bytes"}) report.erase(key);
+  for (const char* key : kRunKeys) report.erase(key);
   return report;
 }
 

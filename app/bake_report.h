@@ -1,6 +1,7 @@
 // What a bake says of itself: the report, and the part of it that the .dlm keeps.
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "app/bake_scene.h"
@@ -19,6 +20,10 @@ struct ReportInput {
 
 /// The report's keys are a contract with others; see docs/report.md.
 nlohmann::json makeReport(const ReportInput& input);
+
+/// Keys whose values differ from run to run of one bake.
+inline constexpr std::array kRunKeys = {"seconds", "photons_per_second", "rays_per_second",    "threads",
+                                        "ranks",   "checkpoints",        "checkpoint_seconds", "peak_memory_bytes"};
 
 /// Nothing that differs from run to run of the same bake, on one machine or on many.
 nlohmann::json provenanceOf(nlohmann::json report);

@@ -1,6 +1,7 @@
 #include "app/bake_resume.h"
 
 #include "app/bake_identity.h"
+#include "app/bake_report.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json.h"
@@ -29,14 +30,13 @@ void checkSameBake(const PartHeader& wanted, const PartHeader& found, const std:
 
 /// Times and rates of the run that made it, where its report is still there.
 void keepTimes(const BakeOptions& options, nlohmann::json& report) {
-  for (const char* key : {"seconds", "photons_per_second", "rays_per_second"}) report[key] = 0;
-  report["threads"] = report["ranks"] = 0;
+  for (const char* key : kRunKeys) report[key] = 0;
   if (!options.report) return;
   try {
     const auto bytes = readFile(*options.report);
     const nlohmann::json earlier = parseJson(bytes, options.report->string());
     if (!earlier.is_object() || earlier.value("content_hash", "") != report["content_hash"]) return;
-    for (const char* key : {"seconds", "photons_per_second", "rays_per_second", "threads", "ranks"})
+    for (const char* key : kRunKeys)
       if (earlier.contains(key)) report[key] = earlier[key];
   } catch (const std::exception&) {
     return;  // no earlier report: the times are not known any more

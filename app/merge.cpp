@@ -42,7 +42,7 @@ void checkOutput(const MergeOptions& options, const std::vector<fs::path>& input
 }
 
 void checkMemory(const PartHeader& whole, bool resolves) {
-  const std::uint64_t needed = whole.tallyBytes() + whole.sceneBytes + (resolves ? whole.tallyBytes() / 2 : 0);
+  const std::uint64_t needed = whole.tallyBytes() + whole.sceneBytes + (resolves ? memoryOfMaps(whole.tallyBytes()) : 0);
   const std::uint64_t available = availableMemoryBytes();
   if (needed <= available) return;
   throw Error(ExitCode::outOfResource, "merging needs " + formatBytes(needed) + " of memory and " + formatBytes(available) + " are free; --verify needs none");

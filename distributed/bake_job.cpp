@@ -18,13 +18,25 @@ IndexRange remaining(const BakeState& state, IndexRange range, const std::string
 CheckpointWriter::CheckpointWriter(const BakeJob& job, CheckpointFolder* folder)
     : job_(job), folder_(job.checkpointSeconds > 0 ? folder : nullptr), clock_(job.checkpointSeconds) {}
 
-void CheckpointWriter::save(const BakeState& state) {
-  const auto start = CheckpointClock::Clock::now();
+void CheckpointWriter::save(BakeState& state, CheckpointClock::Clock::time_point start) {
+  const double before = state.checkpointSeconds;
   trySaving(state);
-  clock_.saved(std::chrono::duration<double>(CheckpointClock::Clock::now() - start).count());
+  addCost(state, start);
+  clock_.saved(state.checkpointSeconds - before);
 }
 
-void CheckpointWriter::trySaving(const BakeState& state) {
+void CheckpointWriter::saveLast(BakeState& state) {
+  if (folder_ == nullptr) return;
+  const auto start = CheckpointClock::Clock::now();
+  if (job_.lastStateIsWanted) {
+    folder_->save(state.header, job_.scene, state.tallies);
+  } else {
+    trySaving(state);
+  }
+  addCost(state, start);
+}
+
+void CheckpointWriter::trySaving(BakeState& state) {
   try {
     folder_->save(state.header, job_.scene, state.tallies);
   } catch (const Error& error) {
@@ -32,13 +44,9 @@ void CheckpointWriter::trySaving(const BakeState& state) {
   }
 }
 
-void CheckpointWriter::saveLast(const BakeState& state) {
-  if (folder_ == nullptr) return;
-  if (job_.lastStateIsWanted) {
-    folder_->save(state.header, job_.scene, state.tallies);
-  } else {
-    trySaving(state);
-  }
+void CheckpointWriter::addCost(BakeState& state, CheckpointClock::Clock::time_point start) const {
+  ++state.checkpoints;
+  state.checkpointSeconds += std::chrono::duration<double>(CheckpointClock::Clock::now() - start).count();
 }
 
 void TracingTime::addTo(PartHeader& header) {

@@ -22,6 +22,9 @@ struct BakeJob {
 struct BakeState {
   PartHeader header;
   Tallies tallies;
+  // Of this run: how many states were saved on the way and at the end, and what that took.
+  std::uint64_t checkpoints = 0;
+  double checkpointSeconds = 0;
 };
 
 /// The photons of `range` that `state` lacks. Throws Error(mergeRefused) naming `file` unless what it has is the beginning
@@ -37,13 +40,14 @@ class CheckpointWriter {
  public:
   CheckpointWriter(const BakeJob& job, CheckpointFolder* folder);
   bool due() const { return folder_ != nullptr && clock_.due(); }
-  /// `state` is whole. A failure is warned of.
-  void save(const BakeState& state);
+  /// `state` is whole; what was done for that since `start` counts as part of the cost of saving. A failure is warned of.
+  void save(BakeState& state, CheckpointClock::Clock::time_point start = CheckpointClock::Clock::now());
   /// At the end of the job: a failure is an Error where the job wants the state for itself.
-  void saveLast(const BakeState& state);
+  void saveLast(BakeState& state);
 
  private:
-  void trySaving(const BakeState& state);
+  void trySaving(BakeState& state);
+  void addCost(BakeState& state, CheckpointClock::Clock::time_point start) const;
 
   const BakeJob& job_;
   CheckpointFolder* folder_;

@@ -69,12 +69,16 @@ class Root {
   void run() {
     for (;;) {
       const bool heard = listen();
-      collecting_ |= writer_.due();
+      if (!collecting_ && writer_.due()) {
+        collecting_ = true;
+        collectingSince_ = Clock::now();
+      }
       deal();
       if (allFree()) {
         collect();
         if (dealer_.empty()) break;
-        writer_.save(state_);
+        // Ranks that waited for the slowest, and the sum, cost tracing time like the writing does.
+        writer_.save(state_, collectingSince_);
         collecting_ = false;
         time_ = {};
         continue;
@@ -150,6 +154,7 @@ class Root {
   TracingTime time_;
   std::vector<bool> free_;
   bool collecting_ = false;
+  Clock::time_point collectingSince_;
   RunProgress others_{0, 0};  // since the last collecting, of ranks 1 and up
 };
 

@@ -9,7 +9,8 @@
 namespace lucarne {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 20;  // numbers; MPI counts in int, and needs buffers of its own
+// Numbers that are summed at a time: MPI counts in int, and needs buffers of its own.
+constexpr std::size_t kBlock = std::size_t{1} << 22;
 
 int rankOf(MPI_Comm comm) {
   int rank = 0;
@@ -17,12 +18,35 @@ int rankOf(MPI_Comm comm) {
   return rank;
 }
 
+int sizeOf(MPI_Comm comm) {
+  int size = 1;
+  checkMpi(MPI_Comm_size(comm, &size), "MPI_Comm_size");
+  return size;
+}
+
+/// A block cut into a share a rank, as equal as can be.
+struct Shares {
+  std::vector<int> counts, starts;
+
+  Shares(std::size_t count, std::size_t ranks) {
+    for (std::size_t r = 0; r <= ranks; ++r) starts.push_back(static_cast<int>(count * r / ranks));
+    for (std::size_t r = 0; r < ranks; ++r) counts.push_back(starts[r + 1] - starts[r]);
+  }
+};
+
+/// Every rank adds up its share of each block, and rank 0 gathers the shares: two transfers of the tallies whatever the number
+/// of ranks, where a plain MPI_Reduce of large blocks takes log2 of it (docs/scaling.md).
 void sumSpan(MPI_Comm comm, std::span<std::int64_t> values) {
-  const bool root = rankOf(comm) == 0;
+  const auto rank = static_cast<std::size_t>(rankOf(comm));
+  std::vector<std::int64_t> share;
   for (std::size_t at = 0; at < values.size(); at += kBlock) {
+    const std::size_t count = std::min(kBlock, values.size() - at);
+    const Shares shares(count, static_cast<std::size_t>(sizeOf(comm)));
+    share.resize(static_cast<std::size_t>(shares.counts[rank]));
     std::int64_t* block = values.data() + at;
-    const int count = static_cast<int>(std::min(kBlock, values.size() - at));
-    checkMpi(MPI_Reduce(root ? MPI_IN_PLACE : block, root ? block : nullptr, count, MPI_INT64_T, MPI_SUM, 0, comm), "MPI_Reduce");
+    checkMpi(MPI_Reduce_scatter(block, share.data(), shares.counts.data(), MPI_INT64_T, MPI_SUM, comm), "MPI_Reduce_scatter");
+    checkMpi(MPI_Gatherv(share.data(), shares.counts[rank], MPI_INT64_T, block, shares.counts.data(), shares.starts.data(), MPI_INT64_T, 0, comm),
+             "MPI_Gatherv");
   }
 }
 
@@ -36,9 +60,7 @@ void sumTallies(MPI_Comm comm, Tallies& tallies) {
 
 void sumLedgers(MPI_Comm comm, Ledger& ledger) {
   static_assert(std::is_trivially_copyable_v<Ledger>);
-  int size = 1;
-  checkMpi(MPI_Comm_size(comm, &size), "MPI_Comm_size");
-  std::vector<Ledger> all(static_cast<std::size_t>(size));
+  std::vector<Ledger> all(static_cast<std::size_t>(sizeOf(comm)));
   checkMpi(MPI_Gather(&ledger, sizeof(Ledger), MPI_BYTE, all.data(), sizeof(Ledger), MPI_BYTE, 0, comm), "MPI_Gather");
   if (rankOf(comm) == 0) {
     for (std::size_t i = 1; i < all.size(); ++i) ledger += all[i];
