@@ -16,6 +16,8 @@ using nlohmann::json;
 constexpr std::array<const char*, 3> kShapes = {"pyramid", "box", "epanechnikov"};
 constexpr std::array<const char*, 3> kLightParts = {"all", "direct", "indirect"};
 
+constexpr const char* kParts = "the parts";  // of which errors speak
+
 /// The place of a view's text among names.
 template <class T, std::size_t n>
 T choiceAt(const JsonView& view, const std::array<const char*, n>& names) {
@@ -39,6 +41,25 @@ std::string shortest(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
+/// As optionsOf(), with an InputError.
+BakeOptions readOptions(const PartHeader& header) {
+  const JsonView s(header.identity.settings, kParts), r(header.identity.resolve, kParts);
+  BakeOptions o;
+  o.directions = static_cast<int>(s.at("directions").integer(1, 4096));
+  o.texelsPerMetre = s.at("texels_per_metre").number();
+  o.texelBudget = s.at("texel_budget").count();
+  o.keepAllDirections = s.at("keep_all_directions").flag();
+  o.seed = s.at("seed").count();
+  o.light = choiceAt<LightPart>(s.at("light"), kLightParts);
+  o.kernel.shape = choiceAt<KernelShape>(r.at("kernel"), kShapes);
+  o.kernel.width = r.at("kernel_width").number();
+  o.photons = std::max<std::uint64_t>(1, header.planned.photons);
+  if (traceSettings(o) != header.identity.settings) s.refuse("has settings that this program does not know");
+  if (resolveSettings(o) != header.identity.resolve) r.refuse("has kernel settings that this program does not know");
+  checkSettings(o);
+  return o;
+}
+
 }  // namespace
 
 json traceSettings(const BakeOptions& o) {
@@ -57,25 +78,16 @@ json resolveSettings(const BakeOptions& o) {
   return {{"kernel", kShapes[static_cast<std::size_t>(o.kernel.shape)]}, {"kernel_width", o.kernel.width}};
 }
 
-BakeOptions optionsOf(const PartHeader& header, const std::string& file) {
-  const JsonView s(header.identity.settings, file), r(header.identity.resolve, file);
-  BakeOptions o;
-  o.directions = static_cast<int>(s.at("directions").integer(1, 4096));
-  o.texelsPerMetre = s.at("texels_per_metre").number();
-  o.texelBudget = s.at("texel_budget").count();
-  o.keepAllDirections = s.at("keep_all_directions").flag();
-  o.seed = s.at("seed").count();
-  o.light = choiceAt<LightPart>(s.at("light"), kLightParts);
-  o.kernel.shape = choiceAt<KernelShape>(r.at("kernel"), kShapes);
-  o.kernel.width = r.at("kernel_width").number();
-  o.photons = std::max<std::uint64_t>(1, header.planned.photons);
-  if (traceSettings(o) != header.identity.settings) s.refuse("has settings that this program does not know");
-  if (resolveSettings(o) != header.identity.resolve) r.refuse("has kernel settings that this program does not know");
-  return o;
+BakeOptions optionsOf(const PartHeader& header) {
+  try {
+    return readOptions(header);
+  } catch (const Error& error) {
+    throw Error(ExitCode::mergeRefused, error.what());
+  }
 }
 
 std::string bakeCommand(const PartHeader& header, const std::string& output, const std::string& rest) {
-  const BakeOptions o = optionsOf(header, output), standard;
+  const BakeOptions o = optionsOf(header), standard;
   std::string text = "lucarne bake";
   if (header.sceneName != kBuiltinSceneName) text += " " + quoted(header.sceneName);
   text += " -o " + quoted(output);

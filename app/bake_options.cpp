@@ -16,6 +16,7 @@ namespace {
 void checkPiece(const BakeOptions& o) {
   if (o.part && o.photonRange) throw UsageError("--part and --photon-range cannot be given together");
   if (o.part && (o.part->n < 1 || o.part->k < 1 || o.part->k > o.part->n)) throw UsageError("--part must be K/N with K from 1 to N");
+  if (o.part && o.part->n > kMostParts) throw UsageError("--part: at most " + formatExactCount(kMostParts) + " parts");
   if (!o.photonRange) return;
   if (o.photonRange->begin >= o.photonRange->end) throw UsageError("--photon-range must be A:B with A below B");
   if (o.photonRange->end > o.photons) {

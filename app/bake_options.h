@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "distributed/index_set.h"
+#include "distributed/part_header.h"
 #include "dlm/deposit.h"
 #include "dlm/dlm_writer.h"
 #include "dlm/kernel.h"

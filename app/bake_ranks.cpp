@@ -22,19 +22,30 @@ int threadsOfRank(const MpiJob& mpi, const BakeOptions& options) {
   return usable < machineThreadCount() ? usable : std::max(1, usable / mpi.localSize());
 }
 
+namespace {
+
+PartHeader headerFrom(const std::string& text, const std::string& name) {
+  const nlohmann::json json = nlohmann::json::parse(text);
+  return partHeaderFrom(JsonView(json, name));
+}
+
+/// What two ranks differ in that makes their photons those of two bakes; empty where they agree.
+std::string difference(const PartHeader& a, const PartHeader& b) {
+  const std::string &buildA = a.makers.begin()->build, &buildB = b.makers.begin()->build;
+  return buildA != buildB ? "build: " + buildA + " and " + buildB : lucarne::difference(a.identity, b.identity, true);
+}
+
+}  // namespace
+
 void joinMakers(MpiJob& mpi, PartHeader& header) {
   const std::vector<std::string> all = mpi.gather(toJson(header).dump());
   mpi.agree([&] {
-    for (std::size_t rank = 1; rank < all.size(); ++rank) {
-      const std::string name = "rank " + std::to_string(rank);
-      const nlohmann::json json = nlohmann::json::parse(all[rank]), first = nlohmann::json::parse(all[0]);
-      const PartHeader other = partHeaderFrom(JsonView(json, name)), root = partHeaderFrom(JsonView(first, "rank 0"));
-      std::string what = difference(root.identity, other.identity, true);
-      const std::string &build = root.makers.begin()->build, &otherBuild = other.makers.begin()->build;
-      if (build != otherBuild) what = "build: " + build + " and " + otherBuild;
+    const PartHeader root = headerFrom(all[0], "rank 0");
+    for (std::size_t rank = 0; rank < all.size(); ++rank) {
+      const PartHeader other = headerFrom(all[rank], "rank " + std::to_string(rank));
+      const std::string what = difference(root, other);
       if (!what.empty()) throw Error(ExitCode::failed, "ranks 0 and " + std::to_string(rank) + " differ in " + what + "; start one program on all");
       header.makers.insert(other.makers.begin(), other.makers.end());
-      header.makers.insert(root.makers.begin(), root.makers.end());
     }
   });
   if (const std::string warning = makersWarning(header.makers); !warning.empty()) logWarning(warning);

@@ -11,9 +11,9 @@ int threadCount(const BakeOptions& options) {
   return options.threads > 0 ? options.threads : threadCount();
 }
 
-BakePlan makePlan(const Scene& scene, const BakeOptions& options) {
+BakePlan makePlan(const Scene& scene, const BakeOptions& options, std::uint64_t texelLimit) {
   ChartSet charts = growCharts(scene);
-  TexelLayout layout = layOutTexels(scene, charts, {options.texelsPerMetre, options.texelBudget});
+  TexelLayout layout = layOutTexels(scene, charts, {options.texelsPerMetre, options.texelBudget, texelLimit});
   DirectionSet directions(options.directions);
   TallyLayout tallies = planTallies(scene, charts, layout, directions, options.keepAllDirections);
   return {std::move(charts), std::move(layout), std::move(directions), std::move(tallies)};

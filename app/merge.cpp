@@ -84,7 +84,7 @@ class ReadingRate {
 
 /// The kernel as asked for, or as the parts have it.
 void chooseKernel(const MergeOptions& options, PartHeader& whole) {
-  BakeOptions o = optionsOf(whole, "the parts");
+  BakeOptions o = optionsOf(whole);
   if (options.kernel) o.kernel.shape = *options.kernel;
   if (options.kernelWidth) o.kernel.width = *options.kernelWidth;
   checkSettings(o);
@@ -93,10 +93,11 @@ void chooseKernel(const MergeOptions& options, PartHeader& whole) {
 
 /// Light maps of the sum. The layout is made again from the scene; it must be the one that the tallies are of.
 nlohmann::json writeMaps(const MergeOptions& options, const PartHeader& whole, const std::vector<std::uint8_t>& glb, const Tallies& tallies) {
-  BakeOptions o = optionsOf(whole, "the parts");
+  BakeOptions o = optionsOf(whole);
   o.format = options.format;
   const Scene scene = readGlb(glb, "the scene of the parts");
-  const BakePlan plan = makePlan(scene, o);
+  // Every chart has a side with texels in the tallies, so an honest layout has no more than those.
+  const BakePlan plan = makePlan(scene, o, whole.texels);
   if (layoutHash(plan) != whole.identity.layout) {
     throw Error(ExitCode::mergeRefused, "the parts were laid out by " + whole.makers.begin()->build + ", and this program, " + buildName() +
                                             ", lays the scene out otherwise: merge with that one, or bake again");

@@ -157,7 +157,9 @@ PartHeader partHeaderFrom(const JsonView& v) {
   h.identity.emittedFlux = v.at("emitted_flux_lm").number();
   if (hashAt(v.at("settings_hash")) != h.identity.settingsHash()) v.at("settings").refuse("was altered");
   h.makers = makersFrom(v.at("makers"));
-  h.planned = {v.at("planned").at("photons").count(), v.at("planned").at("parts").count()};
+  const JsonView planned = v.at("planned");
+  h.planned = {planned.at("photons").count(),
+               static_cast<std::uint64_t>(planned.at("parts").integer(0, static_cast<std::int64_t>(kMostParts)))};
   h.microseconds = v.at("microseconds").count();
   h.sceneBytes = v.at("scene_bytes").count();
   const JsonView sets = v.at("tally_sets");

@@ -40,6 +40,9 @@ struct Maker {
   friend bool operator==(const Maker&, const Maker&) = default;
 };
 
+/// Into how many parts a bake may be cut.
+inline constexpr std::uint64_t kMostParts = 1'000'000;
+
 /// The whole of which a part is a piece, as far as it was said: photons in all, and into how many parts they were cut
 /// (0: not said, or not all cut alike).
 struct BakePlanned {

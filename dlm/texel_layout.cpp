@@ -102,6 +102,10 @@ TexelLayout layOutTexels(const Scene& scene, const ChartSet& set, const LayoutOp
     layout.charts.push_back(chartLayout(chart, used, layout.texelCount));
     layout.texelCount += layout.charts.back().texelCount();
   }
+  if (layout.texelCount > options.texelLimit) {
+    throw Error(ExitCode::outOfResource, "the layout has " + std::to_string(layout.texelCount) + " texels, more than " +
+                                             std::to_string(options.texelLimit));
+  }
   layout.area.assign(layout.texelCount, 0.0);
   for (std::size_t i = 0; i < set.charts.size(); ++i) {
     coverChart(scene, set, set.charts[i], layout.charts[i], layout.area);

@@ -16,6 +16,7 @@ namespace lucarne {
 struct LayoutOptions {
   double texelsPerMetre = 16;
   std::uint64_t texelBudget = 4'000'000;  // over all charts (one side); a denser layout is thinned to fit
+  std::uint64_t texelLimit = ~std::uint64_t{0};  // a layout with more is an Error(outOfResource), before it takes memory
 };
 
 struct ChartLayout {
