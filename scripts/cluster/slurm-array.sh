@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
-# slurm-array.sh SCENE OUT.dlm N [BAKE OPTION…]: bakes SCENE as a Slurm job array of N parts, and merges them in a
-# second job that waits for the first. Prints the ids of both. SCENE - is the built-in room.
+# slurm-array.sh SCENE OUT.dlm N [BAKE OPTION…]: bakes SCENE as a Slurm job array of N parts, and merges them in a job
+# that waits for it; beyond 32 parts, in two levels of such jobs (merge-tree.sh). Prints the ids of all. SCENE - is the
+# built-in room.
 #
-# The parts and the logs lie in OUT.parts/. A part that is there is not baked again, and one that was begun goes on from
-# its checkpoint: after a failure, submit the same command again. What the nodes need is a common file system.
+# The parts and their logs lie in OUT.parts/; OUT.log is the log of the merge. A part that is there is not baked again,
+# and one that was begun goes on from its checkpoint: after a failure, submit the same command again. What the nodes
+# need is a common file system.
 #
 #   LUCARNE         the program, as the nodes see it (default: the one built here)
 #   LUCARNE_SBATCH  options for sbatch, e.g. "--partition=long --time=8:00:00 --cpus-per-task=32"
+#   LUCARNE_FAN_IN  how many parts a merge adds up (default: auto, see merge-tree.sh)
 set -euo pipefail
 
 usage() {
@@ -38,9 +41,9 @@ claim_folder() {
 }
 
 # afterany and not afterok: when a task fails for good, a job that waits for afterok stays in the queue for ever and
-# tells nothing, while this one runs, names the photons that are missing, and ends with an error (--complete).
+# tells nothing, while the merge runs, names the parts that are missing, and ends with an error.
 submit() {
-  local array merge self
+  local array self k
   local sbatch=(sbatch --parsable --requeue --open-mode=append)
   # shellcheck disable=SC2206 # several options in one variable
   local more=(${LUCARNE_SBATCH:-})
@@ -52,11 +55,11 @@ submit() {
   # USR1 comes to the script two minutes before the time limit: it then ends the bake and queues the task again.
   array=$("${sbatch[@]}" --job-name="lucarne-${name##*/}" --array="1-$count" --signal=B:USR1@120 \
     --output="$parts/%a.log" "${more[@]}" "$self" --run-part "$lucarne" "$scene" "$out" "$count" "${options[@]}")
-  merge=$("${sbatch[@]}" --job-name="lucarne-${name##*/}-merge" --dependency="afterany:${array%%;*}" \
-    --output="$parts/merge.log" "${more[@]}" "$self" --run-merge "$lucarne" "$scene" "$out" "$count" "${options[@]}")
   echo "array ${array%%;*}"
-  echo "merge ${merge%%;*}"
-  echo "slurm-array: logs are in $parts; merge.log has the result" >&2
+  echo "slurm-array: logs of the parts are in $parts" >&2
+  for ((k = 1; k <= count; ++k)); do echo "$k.part"; done >"$parts/parts.list"
+  LUCARNE=$lucarne LUCARNE_LOCAL=0 LUCARNE_SBATCH="${LUCARNE_SBATCH:-} --dependency=afterany:${array%%;*}" \
+    "${self%/*}/merge-tree.sh" "@$parts/parts.list" "$out" "${LUCARNE_FAN_IN:-auto}"
 }
 
 states() { ls -l --full-time "$1"/*.part 2>/dev/null || true; }
@@ -90,24 +93,14 @@ run_part() {
   scontrol requeue "${SLURM_ARRAY_JOB_ID}_$k"
 }
 
-run_merge() {
-  local k
-  for ((k = 1; k <= count; ++k)); do
-    [ -f "$parts/$k.part" ] || echo "slurm-array: part $k of $count is missing; its log is $parts/$k.log"
-  done
-  "$lucarne" merge "$parts" -o "$out" --complete
-}
-
 top=$(realpath -m "$(dirname "$0")/../..")
 role=submit
 lucarne=${LUCARNE:-$top/build/release/cli/lucarne}
-case "${1:-}" in
-  --run-part | --run-merge)
-    role=${1#--}
-    lucarne=$2
-    shift 2
-    ;;
-esac
+if [ "${1:-}" = --run-part ]; then
+  role=run-part
+  lucarne=$2
+  shift 2
+fi
 [[ $# -ge 3 && "$2" == *?.dlm && "$3" =~ ^[1-9][0-9]*$ ]] || usage
 scene=$1
 out=$(realpath -m "$2")
@@ -122,5 +115,4 @@ scene_argument=()
 case "$role" in
   submit) submit ;;
   run-part) run_part ;;
-  run-merge) run_merge ;;
 esac

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# slurm_test.sh LUCARNE: scripts/cluster/slurm-array.sh and slurm-mpi.sh on a Slurm of two machines (see namespaces.sh),
-# started here for the test, with a task of the array requeued in the middle. Ends with 77 where something it needs is
-# missing.
+# slurm_test.sh LUCARNE: scripts/cluster/slurm-array.sh, merge-tree.sh and slurm-mpi.sh on a Slurm of two machines (see
+# namespaces.sh), started here for the test, with a task of the array requeued in the middle. Ends with 77 where
+# something it needs is missing.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 # shellcheck source=tests/cluster/namespaces.sh
@@ -108,18 +108,20 @@ submit_array() {
   merge=$(awk '$1 == "merge" { print $2 }' <<<"$ids")
 }
 
-# Three parts on four CPUs; the second is requeued when it has saved something, and the merge waits for it all the same.
+# Three parts on four CPUs; the second is requeued when it has saved something, and the merges, in two levels, wait for
+# it all the same.
 bake_array() {
   local parts=$folder/array.parts
-  submit_array "$folder/array.dlm" 3 "${bake_options[@]}" --checkpoint 0.3s
+  LUCARNE_FAN_IN=2 submit_array "$folder/array.dlm" 3 "${bake_options[@]}" --checkpoint 0.3s
   within 60 has_state "$parts/2.checkpoint" || fail "task 2 saved nothing: $(squeue -l) $(cat "$parts"/*.log)"
   scontrol requeue "${array}_2"
   note "task 2 is requeued"
-  expect_end "$merge" COMPLETED "$parts/merge.log"
+  expect_end "$merge" COMPLETED "$folder/array.log"
   scontrol show job "${array}_2" | grep -q 'Restarts=1' ||
     fail "task 2 was not restarted: $(scontrol show job "${array}_2")"
   expect_text 'going on from' "$parts/2.log"
   expect_same_hash "$folder/array.dlm" "$folder/single.dlm"
+  [ ! -e "$folder/array.tree" ] || fail "left behind: $(ls "$folder/array.tree")"
 }
 
 # A cancelled task is not baked. The merge job ends with an error that names the gap, and the same command bakes only
@@ -129,14 +131,43 @@ cancel_and_submit_again() {
   submit_array "$folder/cancelled.dlm" 2 "${bake_options[@]}" --checkpoint 0.3s
   within 60 has_state "$parts/2.checkpoint" || fail "task 2 saved nothing: $(squeue -l) $(cat "$parts"/*.log)"
   scancel "${array}_2"
-  expect_end "$merge" FAILED "$parts/merge.log"
-  expect_text 'part 2 of 2 is missing' "$parts/merge.log"
-  [ ! -e "$folder/cancelled.dlm" ] || fail "light maps with a gap were written: $(cat "$parts/merge.log")"
+  expect_end "$merge" FAILED "$folder/cancelled.log"
+  expect_text '2.part is missing; its log is .*/cancelled.parts/2.log' "$folder/cancelled.log"
+  [ ! -e "$folder/cancelled.dlm" ] || fail "light maps with a gap were written: $(cat "$folder/cancelled.log")"
   before=$(stat -c %Y.%i "$parts/1.part")
   submit_array "$folder/cancelled.dlm" 2 "${bake_options[@]}" --checkpoint 0.3s
-  expect_end "$merge" COMPLETED "$parts/merge.log"
+  expect_end "$merge" COMPLETED "$folder/cancelled.log"
   [ "$before" = "$(stat -c %Y.%i "$parts/1.part")" ] || fail "part 1 was baked twice"
   expect_same_hash "$folder/cancelled.dlm" "$folder/single.dlm"
+}
+
+# Four parts of a list, the last of which is baked only when all jobs are queued: by a job that the first level waits
+# for. A task that fails there is named by the last merge; the second submission goes on.
+merge_tree() {
+  local k bake job
+  local tiny=(bake "$scene" --photons 8k --density 4 --checkpoint 0 --quiet)
+  mkdir "$folder/tree"
+  for k in 1 2 3; do
+    "$lucarne" "${tiny[@]}" -o "$folder/tree/$k.part" --part "$k/4"
+  done
+  cp "$folder/tree/3.part" "$folder/whole"
+  truncate -s -1 "$folder/tree/3.part"
+  printf '%s.part\n' 1 2 3 4 >"$folder/tree/list"
+  bake=$(sbatch --parsable --output="$folder/tree/4.log" \
+    --wrap "'$lucarne' bake '$scene' --photons 8k --density 4 -o '$folder/tree/4.part' --part 4/4")
+  job=$(LUCARNE_SBATCH="--dependency=afterany:$bake" \
+    "$recipes/merge-tree.sh" "@$folder/tree/list" "$folder/tree.dlm" 2 2>"$folder/submit.log") ||
+    fail "not submitted: $(cat "$folder/submit.log")"
+  job=${job##*merge }
+  expect_end "$job" FAILED "$folder/tree.log"
+  expect_text 'level 1, task 2 failed; its log is .*/tree.tree/1.2.log: .*tree/3.part' "$folder/tree.log"
+  [ ! -e "$folder/tree.dlm" ] || fail "light maps were written: $(cat "$folder/tree.log")"
+  cp "$folder/whole" "$folder/tree/3.part"
+  job=$("$recipes/merge-tree.sh" "@$folder/tree/list" "$folder/tree.dlm" 2 2>"$folder/submit.log") ||
+    fail "not submitted: $(cat "$folder/submit.log")"
+  expect_end "${job##*merge }" COMPLETED "$folder/tree.log"
+  "$lucarne" "${tiny[@]}" -o "$folder/tiny.dlm"
+  expect_same_hash "$folder/tree.dlm" "$folder/tiny.dlm"
 }
 
 # bake_mpi NAME: two ranks on each of two machines.
@@ -157,6 +188,8 @@ bake_array
 note "three parts, one of them requeued, make the light maps of one bake"
 cancel_and_submit_again
 note "a cancelled part was named, and baked by the second submission"
+merge_tree
+note "merges of a list waited for a part, named a part that is cut short, and went on"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 bake_mpi mpirun
 LUCARNE_LAUNCH="srun --mpi=pmix" bake_mpi srun
