@@ -34,7 +34,8 @@ PackedScene load(const BakeOptions& options) {
 
 /// Tallies and maps exist together while resolving, in one process. `processes` of them share the machine's memory.
 void checkMemory(const BakePlan& plan, int processes) {
-  const std::uint64_t needed = plan.tallies.bytes() * static_cast<std::uint64_t>(processes) + memoryOfMaps(plan.tallies.bytes());
+  const std::uint64_t needed =
+      plan.tallies.bytes() * static_cast<std::uint64_t>(processes) + memoryOfMaps(plan.tallies.bytes());
   const std::uint64_t available = availableMemoryBytes();
   if (needed <= available) return;
   throw Error(ExitCode::outOfResource, "light maps need " + formatBytes(needed) + " and " + formatBytes(available) +
@@ -46,15 +47,18 @@ void warnAbout(const PhotonScene& scene, const BakePlan& plan, const BakeOptions
   for (const std::string& what : scene.scene().leftOut) logWarning("not modelled: " + what);
   for (const std::string& light : scene.emitters().dark()) logWarning("light '" + light + "' gives no light");
   if (options.isa.empty() && scene.rayCaster().isa() != "avx2")
-    logWarning("this processor has no avx2: rays are traced with " + scene.rayCaster().isa() + ", and may differ in rounding from those of other machines");
+    logWarning("this processor has no avx2: rays are traced with " + scene.rayCaster().isa() +
+               ", and may differ in rounding from those of other machines");
   if (scene.emitters().empty()) logWarning(sceneName(options) + " has no light: the light maps will be black");
   if (plan.layout.thinned)
-    logWarning("density lowered from " + formatNumber(options.texelsPerMetre) + " to " + formatNumber(plan.layout.texelsPerMetre) +
-               " texels/m by the budget of " + formatCount(options.texelBudget) + " texels (--texels); is the scene in metres?");
+    logWarning("density lowered from " + formatNumber(options.texelsPerMetre) + " to " +
+               formatNumber(plan.layout.texelsPerMetre) + " texels/m by the budget of " +
+               formatCount(options.texelBudget) + " texels (--texels); is the scene in metres?");
 }
 
 /// Of a bake that has traced nothing yet.
-PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene, const BakePlan& plan) {
+PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene,
+                    const BakePlan& plan) {
   PartHeader header;
   header.sceneName = sceneName(options);
   header.identity = {hashBytes(packed.glb), traceSettings(options), resolveSettings(options), layoutHash(plan),
@@ -65,8 +69,8 @@ PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const
 }
 
 /// Traces what the state lacks. A scene without light is at once as good as traced.
-void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene, const BakePlan& plan,
-           BakeState& state, CheckpointFolder& folder) {
+void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene,
+           const BakePlan& plan, BakeState& state, CheckpointFolder& folder) {
   const IndexRange range = photonsOf(options);
   const bool root = mpi == nullptr || mpi->rank() == 0;
   if (scene.emitters().empty()) {
@@ -78,7 +82,13 @@ void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, c
   ProgressLine progress("baking", range.size(), options.quiet || !root);
   progress.startFrom(state.header.photons.count(), state.header.ledger.rays);
   const auto show = [&progress](const RunProgress& p) { progress.update(p.photons, p.rays); };
-  const BakeJob job{{scene, map, plan.tallies, plan.directions}, runOptions(options), range, packed.glb, options.checkpointSeconds, writesPart(options) || options.keepPart, show};
+  const BakeJob job{{scene, map, plan.tallies, plan.directions},
+                    runOptions(options),
+                    range,
+                    packed.glb,
+                    options.checkpointSeconds,
+                    writesPart(options) || options.keepPart,
+                    show};
   if (mpi != nullptr) {
     mpi->run(job, state, &folder);
   } else {
@@ -87,8 +97,8 @@ void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, c
   progress.finish();
 }
 
-/// The bake of one process, or of all ranks together: rank 0 alone reads, saves, writes and tells. Steps that can fail on
-/// one rank while the others wait are agreed on. Returns the report on rank 0.
+/// The bake of one process, or of all ranks together: rank 0 alone reads, saves, writes and tells. Steps that can fail
+/// on one rank while the others wait are agreed on. Returns the report on rank 0.
 nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
   const bool root = mpi == nullptr || mpi->rank() == 0;
   const auto agree = [mpi](const std::function<void()>& f) { mpi == nullptr ? f() : mpi->agree(f); };
@@ -122,7 +132,8 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
     finished = finishedBefore(options, state->header);
     if (!finished) takeUp(options, folder, *state);
   });
-  if (mpi != nullptr && mpi->gather(finished ? "finished" : "")[0] == "finished") return root ? writeReport(options, *finished) : nullptr;
+  if (mpi != nullptr && mpi->gather(finished ? "finished" : "")[0] == "finished")
+    return root ? writeReport(options, *finished) : nullptr;
   if (finished) return writeReport(options, *finished);
   trace(mpi, options, packed, *scene, *plan, *state, folder);
   return root ? finish(options, packed, *plan, *state, folder) : nullptr;

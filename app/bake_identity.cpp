@@ -101,7 +101,8 @@ std::string bakeCommand(const PartHeader& header, const std::string& output, con
   add(o.keepAllDirections, "--keep-all-directions");
   add(o.seed != standard.seed, "--seed " + std::to_string(o.seed));
   add(o.light != standard.light, std::string("--light ") + kLightParts[static_cast<std::size_t>(o.light)]);
-  add(o.kernel.shape != standard.kernel.shape, std::string("--kernel ") + kShapes[static_cast<std::size_t>(o.kernel.shape)]);
+  add(o.kernel.shape != standard.kernel.shape,
+      std::string("--kernel ") + kShapes[static_cast<std::size_t>(o.kernel.shape)]);
   add(o.kernel.width != standard.kernel.width, "--kernel-width " + shortest(o.kernel.width));
   return text + (rest.empty() ? "" : " " + rest);
 }

@@ -14,12 +14,12 @@ nlohmann::json traceSettings(const BakeOptions& options);
 /// How maps are made of tallies.
 nlohmann::json resolveSettings(const BakeOptions& options);
 
-/// The options of a bake whose header this is; everything else as by default. Error(mergeRefused) for settings that this
-/// program does not know.
+/// The options of a bake whose header this is; everything else as by default. Error(mergeRefused) for settings that
+/// this program does not know.
 BakeOptions optionsOf(const PartHeader& header);
 
-/// "lucarne bake room.glb -o OUTPUT --seed 3 …": the command that bakes with these options, defaults left out, `rest` at the
-/// end. The scene's name is quoted for a shell.
+/// "lucarne bake room.glb -o OUTPUT --seed 3 …": the command that bakes with these options, defaults left out, `rest`
+/// at the end. The scene's name is quoted for a shell.
 std::string bakeCommand(const PartHeader& header, const std::string& output, const std::string& rest);
 
 /// Of charts, texels, directions and the order of tallies.

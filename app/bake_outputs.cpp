@@ -15,13 +15,15 @@ namespace {
 void checkPart(const std::filesystem::path& path, IndexRange photons) {
   checkWritable(path);
   if (!std::filesystem::exists(path)) return;
-  if (!isPart(path)) throw Error(ExitCode::failed, "will not replace " + path.string() + ": it is not a part of a bake; remove it or name another");
+  if (!isPart(path))
+    throw Error(ExitCode::failed,
+                "will not replace " + path.string() + ": it is not a part of a bake; remove it or name another");
   try {
     const PartHeader there = PartReader(path).header();
     for (const IndexRange& r : there.photons.ranges()) {
       if (r.begin >= photons.begin && r.end <= photons.end) continue;
-      throw Error(ExitCode::failed, "will not replace " + path.string() + ": it holds other photons (" + toText(there.photons) +
-                                        "); give each part a name of its own with -o");
+      throw Error(ExitCode::failed, "will not replace " + path.string() + ": it holds other photons (" +
+                                        toText(there.photons) + "); give each part a name of its own with -o");
     }
   } catch (const InputError&) {
     return;  // damaged: no loss
@@ -31,11 +33,13 @@ void checkPart(const std::filesystem::path& path, IndexRange photons) {
 void checkMaps(const std::filesystem::path& path) {
   checkWritable(path);
   if (std::filesystem::exists(path) && !holdsLightMaps(path))
-    throw Error(ExitCode::failed, "will not replace " + path.string() + ": it is not a folder of light maps; remove it or name another");
+    throw Error(ExitCode::failed,
+                "will not replace " + path.string() + ": it is not a folder of light maps; remove it or name another");
 }
 
 /// The states hold the end of the bake unless they were turned off: then they are written now.
-void publishPart(const BakeOptions& options, const PackedScene& packed, const BakeState& state, CheckpointFolder& folder) {
+void publishPart(const BakeOptions& options, const PackedScene& packed, const BakeState& state,
+                 CheckpointFolder& folder) {
   if (options.checkpointSeconds > 0) {
     folder.publish(partPath(options));
   } else {
@@ -51,7 +55,8 @@ void checkOutputs(const BakeOptions& options) {
   if (options.report) checkWritable(*options.report);
 }
 
-nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, const BakePlan& plan, BakeState& state, CheckpointFolder& folder) {
+nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, const BakePlan& plan, BakeState& state,
+                      CheckpointFolder& folder) {
   PartHeader& header = state.header;
   header.content = state.tallies.contentHash();
   std::optional<Baked> baked;

@@ -9,12 +9,13 @@
 
 namespace lucarne {
 
-/// Asked before the work, not after it: Error(failed) where an output cannot be written, or would replace something that a
-/// bake of these options did not make.
+/// Asked before the work, not after it: Error(failed) where an output cannot be written, or would replace something
+/// that a bake of these options did not make.
 void checkOutputs(const BakeOptions& options);
 
 /// Writes everything the options ask for and removes the saved states. Returns the report.
-nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, const BakePlan& plan, BakeState& state, CheckpointFolder& folder);
+nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, const BakePlan& plan, BakeState& state,
+                      CheckpointFolder& folder);
 
 /// Adds the peak of memory and writes the report where the options say so; returns it.
 nlohmann::json writeReport(const BakeOptions& options, nlohmann::json report);

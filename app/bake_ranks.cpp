@@ -44,7 +44,9 @@ void joinMakers(MpiJob& mpi, PartHeader& header) {
     for (std::size_t rank = 0; rank < all.size(); ++rank) {
       const PartHeader other = headerFrom(all[rank], "rank " + std::to_string(rank));
       const std::string what = difference(root, other);
-      if (!what.empty()) throw Error(ExitCode::failed, "ranks 0 and " + std::to_string(rank) + " differ in " + what + "; start one program on all");
+      if (!what.empty())
+        throw Error(ExitCode::failed,
+                    "ranks 0 and " + std::to_string(rank) + " differ in " + what + "; start one program on all");
       header.makers.insert(other.makers.begin(), other.makers.end());
     }
   });

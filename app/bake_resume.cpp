@@ -19,8 +19,10 @@ void checkSameBake(const PartHeader& wanted, const PartHeader& found, const std:
   for (const Maker& here : wanted.makers) {
     for (const Maker& there : found.makers) {
       if (what.empty() && here.build != there.build) what = "build: " + here.build + " and " + there.build;
-      if (what.empty() && here.rayCaster != there.rayCaster) what = "ray_caster: " + here.rayCaster + " and " + there.rayCaster;
-      if (what.empty() && here.probeRays != there.probeRays) what = "probe_rays: " + here.probeRays.hex() + " and " + there.probeRays.hex();
+      if (what.empty() && here.rayCaster != there.rayCaster)
+        what = "ray_caster: " + here.rayCaster + " and " + there.rayCaster;
+      if (what.empty() && here.probeRays != there.probeRays)
+        what = "probe_rays: " + here.probeRays.hex() + " and " + there.probeRays.hex();
     }
   }
   if (what.empty()) return;
@@ -77,10 +79,12 @@ void adopt(PartHeader& header, const PartHeader& found) {
 }  // namespace
 
 std::optional<nlohmann::json> finishedBefore(const BakeOptions& options, const PartHeader& header) {
-  if (!options.resume || writesPart(options) || options.keepPart || !holdsLightMaps(options.output)) return std::nullopt;
+  if (!options.resume || writesPart(options) || options.keepPart || !holdsLightMaps(options.output))
+    return std::nullopt;
   nlohmann::json manifest = readManifest(options.output);
   if (!isOf(manifest, options, header)) return std::nullopt;
-  for (const char* key : {"format", "version", "frame", "charts", "sides", "irradiance", "directional", "files"}) manifest.erase(key);
+  for (const char* key : {"format", "version", "frame", "charts", "sides", "irradiance", "directional", "files"})
+    manifest.erase(key);
   manifest["charts"] = readManifest(options.output)["charts"]["count"];
   manifest["directions"] = options.directions;
   keepTimes(options, manifest);
@@ -93,8 +97,8 @@ void takeUp(const BakeOptions& options, CheckpointFolder& folder, BakeState& sta
   if (before && !options.resume) {
     folder.open();
     const std::filesystem::path old = folder.moveAside();
-    logWarning("an interrupted bake with " + formatCount(before->photons.count()) + " photons was moved to " + old.string() +
-               "; to go on with it, move it back and give --resume");
+    logWarning("an interrupted bake with " + formatCount(before->photons.count()) + " photons was moved to " +
+               old.string() + "; to go on with it, move it back and give --resume");
   }
   const bool used = options.checkpointSeconds > 0 || (options.resume && before);
   if (used) folder.open();

@@ -14,8 +14,8 @@ namespace lucarne {
 std::optional<nlohmann::json> finishedBefore(const BakeOptions& options, const PartHeader& header);
 
 /// Opens the folder of states. With --resume, the newest state there (or the finished part) becomes `state`;
-/// Error(mergeRefused) names what differs when it is of another bake. Without, states that are there are moved aside, with
-/// a warning.
+/// Error(mergeRefused) names what differs when it is of another bake. Without, states that are there are moved aside,
+/// with a warning.
 void takeUp(const BakeOptions& options, CheckpointFolder& folder, BakeState& state);
 
 }  // namespace lucarne

@@ -24,7 +24,8 @@ void addChart(Hasher& hasher, const Chart& c, const ChartLayout& l) {
 }
 
 void addSide(Hasher& hasher, const TallySide& side, const MemberSet& set) {
-  for (const std::uint64_t n : {std::uint64_t{side.chart}, std::uint64_t{side.back}, side.firstLight, side.firstTexel}) hasher.addNumber(n);
+  for (const std::uint64_t n : {std::uint64_t{side.chart}, std::uint64_t{side.back}, side.firstLight, side.firstTexel})
+    hasher.addNumber(n);
   addVector(hasher, set.members);
 }
 
@@ -34,7 +35,8 @@ Hash128 layoutHash(const BakePlan& plan) {
   Hasher hasher;
   addVector(hasher, plan.charts.chartOfTriangle);
   addVector(hasher, plan.charts.cornerUv);
-  for (std::size_t i = 0; i < plan.charts.charts.size(); ++i) addChart(hasher, plan.charts.charts[i], plan.layout.charts[i]);
+  for (std::size_t i = 0; i < plan.charts.charts.size(); ++i)
+    addChart(hasher, plan.charts.charts[i], plan.layout.charts[i]);
   addVector(hasher, plan.layout.area);
   for (const TallySide& side : plan.tallies.sides) addSide(hasher, side, plan.tallies.membersOf(side));
   for (const Vec3d& d : plan.directions.directions()) addDoubles(hasher, d.x, d.y, d.z);

@@ -31,21 +31,25 @@ void checkOutput(const MergeOptions& options, const std::vector<fs::path>& input
   std::error_code none;
   for (const fs::path& input : inputs) {
     if (fs::equivalent(input, *options.output, none)) {
-      throw UsageError(options.output->string() + " is both a part to merge and the output; inputs are never touched: name another output");
+      throw UsageError(options.output->string() +
+                       " is both a part to merge and the output; inputs are never touched: name another output");
     }
   }
   if (!fs::exists(*options.output)) return;
   if (toPart(options) ? !isPart(*options.output) : !holdsLightMaps(*options.output)) {
     throw Error(ExitCode::failed, "will not replace " + options.output->string() + ": it is not " +
-                                      (toPart(options) ? "a part of a bake" : "a folder of light maps") + "; remove it or name another");
+                                      (toPart(options) ? "a part of a bake" : "a folder of light maps") +
+                                      "; remove it or name another");
   }
 }
 
 void checkMemory(const PartHeader& whole, bool resolves) {
-  const std::uint64_t needed = whole.tallyBytes() + whole.sceneBytes + (resolves ? memoryOfMaps(whole.tallyBytes()) : 0);
+  const std::uint64_t needed =
+      whole.tallyBytes() + whole.sceneBytes + (resolves ? memoryOfMaps(whole.tallyBytes()) : 0);
   const std::uint64_t available = availableMemoryBytes();
   if (needed <= available) return;
-  throw Error(ExitCode::outOfResource, "merging needs " + formatBytes(needed) + " of memory and " + formatBytes(available) + " are free; --verify needs none");
+  throw Error(ExitCode::outOfResource, "merging needs " + formatBytes(needed) + " of memory and " +
+                                           formatBytes(available) + " are free; --verify needs none");
 }
 
 /// What is unusual about the sum. Photons missing from a part are no news: more parts may follow.
@@ -92,14 +96,16 @@ void chooseKernel(const MergeOptions& options, PartHeader& whole) {
 }
 
 /// Light maps of the sum. The layout is made again from the scene; it must be the one that the tallies are of.
-nlohmann::json writeMaps(const MergeOptions& options, const PartHeader& whole, const std::vector<std::uint8_t>& glb, const Tallies& tallies) {
+nlohmann::json writeMaps(const MergeOptions& options, const PartHeader& whole, const std::vector<std::uint8_t>& glb,
+                         const Tallies& tallies) {
   BakeOptions o = optionsOf(whole);
   o.format = options.format;
   const Scene scene = readGlb(glb, "the scene of the parts");
   // Every chart has a side with texels in the tallies, so an honest layout has no more than those.
   const BakePlan plan = makePlan(scene, o, whole.texels);
   if (layoutHash(plan) != whole.identity.layout) {
-    throw Error(ExitCode::mergeRefused, "the parts were laid out by " + whole.makers.begin()->build + ", and this program, " + buildName() +
+    throw Error(ExitCode::mergeRefused, "the parts were laid out by " + whole.makers.begin()->build +
+                                            ", and this program, " + buildName() +
                                             ", lays the scene out otherwise: merge with that one, or bake again");
   }
   const Baked baked = resolveBake(scene, plan, o, whole.identity.emittedFlux, whole.ledger, tallies);

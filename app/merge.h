@@ -13,9 +13,9 @@
 namespace lucarne {
 
 struct MergeOptions {
-  std::vector<std::string> inputs;             // parts, folders of them, @LIST files with a path a line
+  std::vector<std::string> inputs;              // parts, folders of them, @LIST files with a path a line
   std::optional<std::filesystem::path> output;  // NAME.dlm or NAME.part; none: only verify
-  std::optional<KernelShape> kernel;           // none: as the parts were baked
+  std::optional<KernelShape> kernel;            // none: as the parts were baked
   std::optional<double> kernelWidth;
   bool complete = false;  // missing photons are an error
   DlmFormat format;
@@ -28,8 +28,8 @@ struct MergeOptions {
 /// touched.
 nlohmann::json merge(const MergeOptions& options);
 
-/// The files that the inputs stand for, in the order given; of a folder, its .part files by name. InputError for what is
-/// not there.
+/// The files that the inputs stand for, in the order given; of a folder, its .part files by name. InputError for what
+/// is not there.
 std::vector<std::filesystem::path> partFiles(const std::vector<std::string>& inputs);
 
 }  // namespace lucarne

@@ -32,14 +32,15 @@ std::string stemOf(const std::string& sceneName) {
 
 /// Commands for at most kMostCommands pieces, and how many more there are.
 template <class Piece>
-std::string commands(const PartHeader& whole, const std::filesystem::path& folder, const std::vector<Piece>& pieces, const auto& nameOf,
-                     const auto& optionOf) {
+std::string commands(const PartHeader& whole, const std::filesystem::path& folder, const std::vector<Piece>& pieces,
+                     const auto& nameOf, const auto& optionOf) {
   std::string text;
   for (std::size_t i = 0; i < std::min(pieces.size(), kMostCommands); ++i) {
     const std::string output = (folder / (stemOf(whole.sceneName) + "-" + nameOf(pieces[i]) + ".part")).string();
     text += (i == 0 ? "" : " && ") + bakeCommand(whole, output, optionOf(pieces[i]));
   }
-  if (pieces.size() > kMostCommands) text += " … and " + std::to_string(pieces.size() - kMostCommands) + " more like these";
+  if (pieces.size() > kMostCommands)
+    text += " … and " + std::to_string(pieces.size() - kMostCommands) + " more like these";
   return text;
 }
 
@@ -54,17 +55,23 @@ std::string describeGaps(const PartHeader& whole) {
   if (missing.empty()) return {};
   const std::vector<std::uint64_t> parts = missingParts(whole, missing);
   if (parts.empty()) return "photons " + toText(missing) + " missing";
-  return std::to_string(parts.size()) + " of " + std::to_string(whole.planned.parts) + " parts missing, photons " + toText(missing);
+  return std::to_string(parts.size()) + " of " + std::to_string(whole.planned.parts) + " parts missing, photons " +
+         toText(missing);
 }
 
 std::string commandsForGaps(const PartHeader& whole, const std::filesystem::path& folder) {
   const IndexSet missing = missingPhotons(whole);
   if (const std::vector<std::uint64_t> parts = missingParts(whole, missing); !parts.empty()) {
-    const auto option = [&](std::uint64_t k) { return "--part " + std::to_string(k) + "/" + std::to_string(whole.planned.parts); };
-    return commands(whole, folder, parts, [](std::uint64_t k) { return std::to_string(k); }, option);
+    const auto option = [&](std::uint64_t k) {
+      return "--part " + std::to_string(k) + "/" + std::to_string(whole.planned.parts);
+    };
+    return commands(
+        whole, folder, parts, [](std::uint64_t k) { return std::to_string(k); }, option);
   }
   const auto from = [](const IndexRange& r) { return "from-" + formatExactCount(r.begin); };
-  const auto range = [](const IndexRange& r) { return "--photon-range " + formatExactCount(r.begin) + ":" + formatExactCount(r.end); };
+  const auto range = [](const IndexRange& r) {
+    return "--photon-range " + formatExactCount(r.begin) + ":" + formatExactCount(r.end);
+  };
   return commands(whole, folder, missing.ranges(), from, range);
 }
 

@@ -20,7 +20,8 @@ struct BakeTexts {
 /// The two numbers of "A/B" or "A:B".
 std::pair<std::uint64_t, std::uint64_t> parsePair(const std::string& option, const std::string& text, char between) {
   const std::size_t at = text.find(between);
-  if (at == std::string::npos) throw UsageError(option + " must be two numbers with " + between + " between them, not '" + text + "'");
+  if (at == std::string::npos)
+    throw UsageError(option + " must be two numbers with " + between + " between them, not '" + text + "'");
   return {parseCount(option, text.substr(0, at)), parseCount(option, text.substr(at + 1))};
 }
 
@@ -46,42 +47,58 @@ void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
 }
 
 void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
-  cmd.add_option("--photons", texts.photons, "photons to trace, e.g. 20M or 1e9; four times as many halve the noise")->capture_default_str();
-  cmd.add_option("--directions", o.directions, "size of the direction set: more show sharper highlights, cost memory and frame time")->capture_default_str();
-  cmd.add_option("--density", o.texelsPerMetre, "texels per metre: finer shadows, more noise for the same photons")->capture_default_str();
-  cmd.add_option("--texels", texts.texels, "texel budget; a scene that needs more is baked at a lower density")->capture_default_str();
-  addChoice<KernelShape>(cmd, "--kernel", o.kernel.shape,
-                         {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
-                         "pyramid", "reconstruction kernel: pyramid, box or epanechnikov");
-  cmd.add_option("--kernel-width", o.kernel.width, "distance in texels at which the kernel ends: wider is smoother and blurrier")->capture_default_str();
+  cmd.add_option("--photons", texts.photons, "photons to trace, e.g. 20M or 1e9; four times as many halve the noise")
+      ->capture_default_str();
+  cmd.add_option("--directions", o.directions,
+                 "size of the direction set: more show sharper highlights, cost memory and frame time")
+      ->capture_default_str();
+  cmd.add_option("--density", o.texelsPerMetre, "texels per metre: finer shadows, more noise for the same photons")
+      ->capture_default_str();
+  cmd.add_option("--texels", texts.texels, "texel budget; a scene that needs more is baked at a lower density")
+      ->capture_default_str();
+  addChoice<KernelShape>(
+      cmd, "--kernel", o.kernel.shape,
+      {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
+      "pyramid", "reconstruction kernel: pyramid, box or epanechnikov");
+  cmd.add_option("--kernel-width", o.kernel.width,
+                 "distance in texels at which the kernel ends: wider is smoother and blurrier")
+      ->capture_default_str();
   cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();
   addChoice<LightPart>(cmd, "--light", o.light,
-                       {{"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}}, "all",
-                       "which light to store: all, direct or indirect");
+                       {{"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
+                       "all", "which light to store: all, direct or indirect");
   cmd.add_flag("--keep-all-directions", o.keepAllDirections, "direction maps also for surfaces without a glossy lobe");
 }
 
 void addPieces(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
-  cmd.add_option("--part", texts.part, "K/N: bake part K of N (from 1) of the photons, to be merged: writes NAME.part instead of NAME.dlm");
+  cmd.add_option("--part", texts.part,
+                 "K/N: bake part K of N (from 1) of the photons, to be merged: writes NAME.part instead of NAME.dlm");
   cmd.add_option("--photon-range", texts.photonRange, "A:B: bake photons A to B (without B) alone, as a part");
-  cmd.add_option("--checkpoint", texts.checkpoint, "save the state in NAME.checkpoint/ that often, and at the end; 0: never")->capture_default_str();
-  cmd.add_flag("--resume", o.resume, "go on from the saved state of a killed bake, or from a finished part; without one, start anew");
-  cmd.add_flag("--keep-part", o.keepPart, "the tallies, too, as NAME.part: to merge more photons in later, or to make other maps of");
+  cmd.add_option("--checkpoint", texts.checkpoint,
+                 "save the state in NAME.checkpoint/ that often, and at the end; 0: never")
+      ->capture_default_str();
+  cmd.add_flag("--resume", o.resume,
+               "go on from the saved state of a killed bake, or from a finished part; without one, start anew");
+  cmd.add_flag("--keep-part", o.keepPart,
+               "the tallies, too, as NAME.part: to merge more photons in later, or to make other maps of");
 }
 
 void addRunning(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   cmd.add_option("--threads", o.threads, "0: all; the result does not depend on it")->capture_default_str();
-  addChoice<ChannelType>(cmd, "--format", o.format.directional, {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
+  addChoice<ChannelType>(cmd, "--format", o.format.directional,
+                         {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
                          "numbers of the directional maps on disk: half or float");
-  cmd.add_option("--report", texts.report, "write what happened to a JSON file: rates, energy ledger, errors, what was left out");
-  cmd.add_option("--isa", o.isa, "Embree's instruction set (avx512, avx2, sse4.2); bakes to be compared bit by bit need the same");
+  cmd.add_option("--report", texts.report,
+                 "write what happened to a JSON file: rates, energy ledger, errors, what was left out");
+  cmd.add_option("--isa", o.isa,
+                 "Embree's instruction set (avx512, avx2, sse4.2); bakes to be compared bit by bit need the same");
   cmd.add_flag("--quiet", o.quiet, "print errors only");
 }
 
 void tell(const BakeOptions& options, const nlohmann::json& report) {
   const std::filesystem::path output = writesPart(options) ? partPath(options) : options.output;
-  std::string text = "wrote " + output.string() + ": " + formatCount(report["photons"].get<std::uint64_t>()) + " photons in " +
-                     formatDuration(report["seconds"].get<double>());
+  std::string text = "wrote " + output.string() + ": " + formatCount(report["photons"].get<std::uint64_t>()) +
+                     " photons in " + formatDuration(report["seconds"].get<double>());
   if (report.contains("estimated_relative_error"))
     text += ", estimated error " + formatPercent(report["estimated_relative_error"].get<double>());
   logInfo(text);
@@ -94,7 +111,8 @@ void addBake(CLI::App& app, Action& action) {
   const auto options = std::make_shared<BakeOptions>();
   const auto texts = std::make_shared<BakeTexts>();
   cmd->add_option("SCENE", texts->scene, "a .glb or .gltf file in metres; none: the built-in room");
-  cmd->add_option("-o,--output", options->output, "the light maps, a folder NAME.dlm; NAME.part for a part")->required();
+  cmd->add_option("-o,--output", options->output, "the light maps, a folder NAME.dlm; NAME.part for a part")
+      ->required();
   addQuality(*cmd, *options, *texts);
   addPieces(*cmd, *options, *texts);
   addRunning(*cmd, *options, *texts);

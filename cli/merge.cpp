@@ -13,23 +13,27 @@ namespace lucarne {
 namespace {
 
 void addOptions(CLI::App& cmd, MergeOptions& o) {
-  cmd.add_option("PARTS", o.inputs, "parts, folders that hold .part files, or @LIST: a file with a path a line")->required();
+  cmd.add_option("PARTS", o.inputs, "parts, folders that hold .part files, or @LIST: a file with a path a line")
+      ->required();
   cmd.add_option("-o,--output", o.output, "NAME.dlm: light maps; NAME.part: one part that holds them all");
-  cmd.add_flag("--complete", o.complete, "refuse when photons of the bake are missing; else they are named in a warning");
+  cmd.add_flag("--complete", o.complete,
+               "refuse when photons of the bake are missing; else they are named in a warning");
   cmd.add_option("--kernel-width", o.kernelWidth, "distance in texels at which the kernel ends; not given: as baked");
   addChoice<std::optional<KernelShape>>(
       cmd, "--kernel", o.kernel,
-      {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}}, "as baked",
-      "reconstruction kernel: pyramid, box or epanechnikov");
-  addChoice<ChannelType>(cmd, "--format", o.format.directional, {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
+      {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
+      "as baked", "reconstruction kernel: pyramid, box or epanechnikov");
+  addChoice<ChannelType>(cmd, "--format", o.format.directional,
+                         {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
                          "numbers of the directional maps on disk: half or float");
   cmd.add_option("--report", o.report, "write what happened to a JSON file");
   cmd.add_flag("--quiet", o.quiet, "print errors only");
 }
 
 void tell(const MergeOptions& o, const nlohmann::json& report) {
-  logInfo((o.output ? "wrote " + o.output->string() : std::string("all is well")) + ": " + formatCount(report["parts"].get<std::uint64_t>()) +
-          " parts, " + formatCount(report["photons"].get<std::uint64_t>()) + " photons, in " +
+  logInfo((o.output ? "wrote " + o.output->string() : std::string("all is well")) + ": " +
+          formatCount(report["parts"].get<std::uint64_t>()) + " parts, " +
+          formatCount(report["photons"].get<std::uint64_t>()) + " photons, in " +
           formatDuration(report["merge_seconds"].get<double>()) +
           (report.contains("content_hash") ? ", content_hash " + report["content_hash"].get<std::string>() : ""));
 }

@@ -10,9 +10,11 @@ IndexRange remaining(const BakeState& state, IndexRange range, const std::string
   const IndexSet& photons = state.header.photons;
   if (photons.empty()) return range;
   const IndexRange first = photons.ranges().front();
-  if (photons.ranges().size() == 1 && first.begin == range.begin && first.end <= range.end) return {first.end, range.end};
+  if (photons.ranges().size() == 1 && first.begin == range.begin && first.end <= range.end)
+    return {first.end, range.end};
   throw Error(ExitCode::mergeRefused, file + " holds photons " + toText(photons) + ", which are not the beginning of " +
-                                          toText(IndexSet(range)) + "; ask for at least as many, or name another output");
+                                          toText(IndexSet(range)) +
+                                          "; ask for at least as many, or name another output");
 }
 
 CheckpointWriter::CheckpointWriter(const BakeJob& job, CheckpointFolder* folder)
@@ -51,7 +53,8 @@ void CheckpointWriter::addCost(BakeState& state, CheckpointClock::Clock::time_po
 
 void TracingTime::addTo(PartHeader& header) {
   const auto now = CheckpointClock::Clock::now();
-  header.microseconds += static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(now - last_).count());
+  header.microseconds +=
+      static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(now - last_).count());
   last_ = now;
 }
 

@@ -14,7 +14,7 @@ struct BakeJob {
   IndexRange range;                     // of photons in all, those of earlier runs included
   std::span<const std::uint8_t> scene;  // packed, as states carry it
   double checkpointSeconds = 300;       // 0: no states
-  bool lastStateIsWanted = false;       // for itself; else it only guards what follows, and failing to save it is no error
+  bool lastStateIsWanted = false;  // for itself; else it only guards what follows, and failing to save it is no error
   std::function<void(const RunProgress&)> progress;  // photons and rays so far, earlier runs included
 };
 
@@ -27,12 +27,12 @@ struct BakeState {
   double checkpointSeconds = 0;
 };
 
-/// The photons of `range` that `state` lacks. Throws Error(mergeRefused) naming `file` unless what it has is the beginning
-/// of the range.
+/// The photons of `range` that `state` lacks. Throws Error(mergeRefused) naming `file` unless what it has is the
+/// beginning of the range.
 IndexRange remaining(const BakeState& state, IndexRange range, const std::string& file);
 
-/// Traces what is left of the job's range, in order, into `state`. Saves a state every checkpointSeconds and at the end; one
-/// that fails is warned of and tried again at the next. `folder` may be null: nothing is saved.
+/// Traces what is left of the job's range, in order, into `state`. Saves a state every checkpointSeconds and at the
+/// end; one that fails is warned of and tried again at the next. `folder` may be null: nothing is saved.
 void runJob(const BakeJob& job, BakeState& state, CheckpointFolder* folder);
 
 /// Saves states of a running job when they are due.
@@ -40,7 +40,8 @@ class CheckpointWriter {
  public:
   CheckpointWriter(const BakeJob& job, CheckpointFolder* folder);
   bool due() const { return folder_ != nullptr && clock_.due(); }
-  /// `state` is whole; what was done for that since `start` counts as part of the cost of saving. A failure is warned of.
+  /// `state` is whole; what was done for that since `start` counts as part of the cost of saving. A failure is warned
+  /// of.
   void save(BakeState& state, CheckpointClock::Clock::time_point start = CheckpointClock::Clock::now());
   /// At the end of the job: a failure is an Error where the job wants the state for itself.
   void saveLast(BakeState& state);

@@ -25,7 +25,8 @@ std::optional<std::uint64_t> numberOf(const fs::path& file) {
   const std::string name = file.filename().string(), before = "state-", after = ".part";
   if (!name.starts_with(before) || !name.ends_with(after)) return std::nullopt;
   const std::string digits = name.substr(before.size(), name.size() - before.size() - after.size());
-  const bool plain = !digits.empty() && digits.size() <= 18 && digits.find_first_not_of("0123456789") == std::string::npos;
+  const bool plain =
+      !digits.empty() && digits.size() <= 18 && digits.find_first_not_of("0123456789") == std::string::npos;
   return plain ? std::optional(std::stoull(digits)) : std::nullopt;
 }
 
@@ -49,7 +50,8 @@ void CheckpointFolder::open() {
   if (lock_ < 0) throwSystemError("write", lock, errno);
   // Network file systems without locks say something else than EWOULDBLOCK; there the user has to take care.
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    throw Error(ExitCode::failed, "another bake is writing to " + folder_.string() + "; wait for it, or name another output");
+    throw Error(ExitCode::failed,
+                "another bake is writing to " + folder_.string() + "; wait for it, or name another output");
   }
   removeLeftovers();
 }
@@ -66,7 +68,8 @@ std::vector<fs::path> CheckpointFolder::states() const {
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, none))
     if (numberOf(entry.path())) found.push_back(entry.path());
-  std::sort(found.begin(), found.end(), [](const fs::path& a, const fs::path& b) { return *numberOf(a) > *numberOf(b); });
+  std::sort(found.begin(), found.end(),
+            [](const fs::path& a, const fs::path& b) { return *numberOf(a) > *numberOf(b); });
   return found;
 }
 

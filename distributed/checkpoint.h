@@ -1,7 +1,7 @@
 // The state of a bake on disk, so that a killed one goes on: parts in OUT.checkpoint/, of which the last two are kept.
 //
-// A state is written aside, flushed and renamed, so at every moment the folder holds the newest whole state, or (for the
-// moment before the older one is removed) three of them. Names count up: state-000007.part.
+// A state is written aside, flushed and renamed, so at every moment the folder holds the newest whole state, or (for
+// the moment before the older one is removed) three of them. Names count up: state-000007.part.
 #pragma once
 
 #include <chrono>
@@ -29,10 +29,11 @@ class CheckpointFolder {
   /// left aside.
   void open();
 
-  /// The newest state whose tallies could be added to `tallies` (zero before), and its header. Damaged ones are named in a
-  /// warning and passed over, and `tallies` cleared of them. A state for which `check` throws ends the search with that
-  /// error.
-  std::optional<PartHeader> load(Tallies& tallies, const std::function<void(const PartHeader&, const std::string& file)>& check);
+  /// The newest state whose tallies could be added to `tallies` (zero before), and its header. Damaged ones are named
+  /// in a warning and passed over, and `tallies` cleared of them. A state for which `check` throws ends the search with
+  /// that error.
+  std::optional<PartHeader> load(Tallies& tallies,
+                                 const std::function<void(const PartHeader&, const std::string& file)>& check);
 
   /// What load() would look at, newest first. Damaged headers are passed over.
   std::optional<PartHeader> peek() const;
@@ -57,12 +58,14 @@ class CheckpointFolder {
   int lock_ = -1;
 };
 
-/// When the next checkpoint is due: after the interval, or later, so that saving takes no more than a fiftieth of the time.
+/// When the next checkpoint is due: after the interval, or later, so that saving takes no more than a fiftieth of the
+/// time.
 class CheckpointClock {
  public:
   using Clock = std::chrono::steady_clock;
   /// `interval` in seconds; 0: never.
-  explicit CheckpointClock(double interval, Clock::time_point now = Clock::now()) : interval_(interval), last_(now), next_(interval) {}
+  explicit CheckpointClock(double interval, Clock::time_point now = Clock::now())
+      : interval_(interval), last_(now), next_(interval) {}
   bool due(Clock::time_point now = Clock::now()) const { return interval_ > 0 && secondsSince(now) >= next_; }
   void saved(double costSeconds, Clock::time_point now = Clock::now()) {
     last_ = now;

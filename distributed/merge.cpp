@@ -27,7 +27,8 @@ const fs::path& holderOf(const IndexSet& photons, const std::vector<fs::path>& f
   return files[0];
 }
 
-void checkAgainst(const PartHeader& whole, const PartHeader& part, const std::vector<fs::path>& files, std::size_t i, bool withResolve) {
+void checkAgainst(const PartHeader& whole, const PartHeader& part, const std::vector<fs::path>& files, std::size_t i,
+                  bool withResolve) {
   const std::string both = files[0].string() + " and " + files[i].string();
   if (const std::string what = difference(whole.identity, part.identity, withResolve); !what.empty()) {
     const bool layout = what.starts_with("layout") || what.starts_with("emitted");
@@ -48,7 +49,8 @@ void checkAgainst(const PartHeader& whole, const PartHeader& part, const std::ve
 
 /// The part read again must be the one whose header was joined.
 void checkUnchanged(const PartReader& part, const Hash128& content) {
-  if (part.header().content != content) refuse(part.path().string() + " was exchanged while it was being merged; merge again");
+  if (part.header().content != content)
+    refuse(part.path().string() + " was exchanged while it was being merged; merge again");
 }
 
 template <class F>
@@ -85,9 +87,11 @@ PartSet joinParts(const std::vector<fs::path>& files, bool withResolve) {
   return parts;
 }
 
-std::vector<std::uint8_t> sumParts(const PartSet& parts, Tallies& tallies, const std::function<void(std::uint64_t)>& progress) {
+std::vector<std::uint8_t> sumParts(const PartSet& parts, Tallies& tallies,
+                                   const std::function<void(std::uint64_t)>& progress) {
   std::vector<std::uint8_t> scene;
-  forParts(parts, progress, [&](const PartReader& part, bool first) { addPart(part, tallies, first ? &scene : nullptr); });
+  forParts(parts, progress,
+           [&](const PartReader& part, bool first) { addPart(part, tallies, first ? &scene : nullptr); });
   return scene;
 }
 
@@ -99,7 +103,8 @@ std::string makersWarning(const std::set<Maker>& makers) {
   std::set<std::string> kinds;
   for (const Maker& m : makers) kinds.insert(m.probeRays.hex());
   if (kinds.size() < 2) return {};
-  std::string text = "the parts come from " + std::to_string(kinds.size()) + " kinds of programs or processors whose rays differ in rounding (";
+  std::string text = "the parts come from " + std::to_string(kinds.size()) +
+                     " kinds of programs or processors whose rays differ in rounding (";
   for (const std::string& kind : kinds) {
     for (const Maker& m : makers) {
       if (m.probeRays.hex() != kind) continue;

@@ -17,13 +17,15 @@ struct PartSet {
 };
 
 /// Reads the headers. Throws Error(mergeRefused) naming the two files and what differs: parts of another scene, other
-/// settings (the kernel only if `withResolve`), another layout, photons that both hold; or the one file that is cut short
-/// or no part; or the one whose addition would make the tallies overflow. InputError for files that cannot be read.
+/// settings (the kernel only if `withResolve`), another layout, photons that both hold; or the one file that is cut
+/// short or no part; or the one whose addition would make the tallies overflow. InputError for files that cannot be
+/// read.
 PartSet joinParts(const std::vector<std::filesystem::path>& files, bool withResolve);
 
 /// Adds the tallies of all parts (zero before) and returns the scene, which is kept of the first alone. `progress` is
 /// called after each part with the bytes read so far. Error(mergeRefused) for a part that turns out altered.
-std::vector<std::uint8_t> sumParts(const PartSet& parts, Tallies& tallies, const std::function<void(std::uint64_t)>& progress);
+std::vector<std::uint8_t> sumParts(const PartSet& parts, Tallies& tallies,
+                                   const std::function<void(std::uint64_t)>& progress);
 
 /// The same checks without the tallies: memory does not depend on the size of the parts.
 void verifyParts(const PartSet& parts, const std::function<void(std::uint64_t)>& progress);

@@ -30,8 +30,8 @@ class MpiJob {
   MpiJob(const MpiJob&) = delete;
   MpiJob& operator=(const MpiJob&) = delete;
 
-  /// Starts MPI when an MPI launcher started this process, else null. Error(failed) when it did and this program was built
-  /// without MPI. MPI ends with the object.
+  /// Starts MPI when an MPI launcher started this process, else null. Error(failed) when it did and this program was
+  /// built without MPI. MPI ends with the object.
   static std::unique_ptr<MpiJob> join();
 
   virtual int rank() const = 0;
@@ -41,7 +41,8 @@ class MpiJob {
 
   /// All ranks must call these together.
 
-  /// Runs `f` here. When it throws an Error on some ranks, all ranks throw that of the lowest of them as an AgreedError.
+  /// Runs `f` here. When it throws an Error on some ranks, all ranks throw that of the lowest of them as an
+  /// AgreedError.
   virtual void agree(const std::function<void()>& f) = 0;
   /// Rank 0's bytes to all.
   virtual void broadcast(std::vector<std::uint8_t>& bytes) = 0;

@@ -23,7 +23,9 @@ int launchedRank() {
 #ifndef LUCARNE_HAS_MPI
 std::unique_ptr<MpiJob> MpiJob::join() {
   if (launchedRank() < 0) return nullptr;
-  throw Error(ExitCode::failed, "started by an MPI launcher, but this lucarne was built without MPI; build it where MPI is installed, or bake parts");
+  throw Error(ExitCode::failed,
+              "started by an MPI launcher, but this lucarne was built without MPI; build it where MPI is installed, or "
+              "bake parts");
 }
 #endif
 

@@ -15,11 +15,12 @@ namespace lucarne {
 
 /// Written aside, flushed, renamed. Fills in header.sceneBytes, lightEntries, texels and content from what it is given.
 /// Throws Error as AtomicFile does, and a std::logic_error when a tally is negative (it has overflowed).
-void writePart(const std::filesystem::path& path, PartHeader header, std::span<const std::uint8_t> scene, const Tallies& tallies);
+void writePart(const std::filesystem::path& path, PartHeader header, std::span<const std::uint8_t> scene,
+               const Tallies& tallies);
 
-/// A part opened for reading. The header is believed for its form; that the file is whole and unaltered is known only when
-/// stream() has come to its end. All failures are PartErrors that name the file; a file that cannot be read at all is an
-/// InputError.
+/// A part opened for reading. The header is believed for its form; that the file is whole and unaltered is known only
+/// when stream() has come to its end. All failures are PartErrors that name the file; a file that cannot be read at all
+/// is an InputError.
 class PartReader {
  public:
   explicit PartReader(const std::filesystem::path& path);

@@ -47,7 +47,8 @@ std::set<Maker> makersFrom(const JsonView& list) {
   std::set<Maker> makers;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonView m = list.at(i);
-    makers.insert({m.at("build").text(), m.at("ray_caster").text(), m.at("processor").text(), hashAt(m.at("probe_rays"))});
+    makers.insert(
+        {m.at("build").text(), m.at("ray_caster").text(), m.at("processor").text(), hashAt(m.at("probe_rays"))});
   }
   return makers;
 }
@@ -73,7 +74,8 @@ Hash128 hashOf(const json& value) {
 
 const json& flatObject(const JsonView& view) {
   const json& value = view.json();
-  const bool flat = value.is_object() && std::none_of(value.begin(), value.end(), [](const json& v) { return v.is_structured(); });
+  const bool flat =
+      value.is_object() && std::none_of(value.begin(), value.end(), [](const json& v) { return v.is_structured(); });
   if (!flat) view.refuse("must be an object of plain values");
   return value;
 }
@@ -81,13 +83,17 @@ const json& flatObject(const JsonView& view) {
 }  // namespace
 
 bool operator<(const Maker& a, const Maker& b) {
-  const auto key = [](const Maker& m) { return std::tie(m.build, m.rayCaster, m.processor, m.probeRays.hi, m.probeRays.lo); };
+  const auto key = [](const Maker& m) {
+    return std::tie(m.build, m.rayCaster, m.processor, m.probeRays.hi, m.probeRays.lo);
+  };
   return key(a) < key(b);
 }
 
 Hash128 BakeIdentity::settingsHash() const { return hashOf(settings); }
 
-std::uint64_t PartHeader::tallyBytes() const { return 8 * (lightEntries * kLightChannels + texels * kStatisticsChannels); }
+std::uint64_t PartHeader::tallyBytes() const {
+  return 8 * (lightEntries * kLightChannels + texels * kStatisticsChannels);
+}
 
 void PartHeader::add(const PartHeader& other) {
   sceneName = std::min(sceneName, other.sceneName);
@@ -131,17 +137,16 @@ json toJson(const PartHeader& h) {
           {"planned", {{"photons", h.planned.photons}, {"parts", h.planned.parts}}},
           {"microseconds", h.microseconds},
           {"scene_bytes", h.sceneBytes},
-          {"tally_sets",
-           json::array({{{"name", "photons"},
-                         {"ranges", toJson(h.photons)},
-                         {"normaliser", h.photons.count()},
-                         {"fixed_point_bits", kFixedPointBits},
-                         {"layers", {"photons.light", "photons.statistics"}},
-                         {"light_channels", {"r", "g", "b"}},
-                         {"statistics_channels", {"count", "m2"}},
-                         {"light_entries", h.lightEntries},
-                         {"texels", h.texels},
-                         {"ledger", ledgerState(h.ledger)}}})},
+          {"tally_sets", json::array({{{"name", "photons"},
+                                       {"ranges", toJson(h.photons)},
+                                       {"normaliser", h.photons.count()},
+                                       {"fixed_point_bits", kFixedPointBits},
+                                       {"layers", {"photons.light", "photons.statistics"}},
+                                       {"light_channels", {"r", "g", "b"}},
+                                       {"statistics_channels", {"count", "m2"}},
+                                       {"light_entries", h.lightEntries},
+                                       {"texels", h.texels},
+                                       {"ledger", ledgerState(h.ledger)}}})},
           {"content_hash", h.content.hex()}};
 }
 
@@ -163,14 +168,16 @@ PartHeader partHeaderFrom(const JsonView& v) {
   h.microseconds = v.at("microseconds").count();
   h.sceneBytes = v.at("scene_bytes").count();
   const JsonView sets = v.at("tally_sets");
-  if (sets.size() != 1 || sets.at(0).at("name").text() != "photons") sets.refuse("has tallies that this program does not know");
+  if (sets.size() != 1 || sets.at(0).at("name").text() != "photons")
+    sets.refuse("has tallies that this program does not know");
   const JsonView set = sets.at(0);
   h.photons = rangesFrom(set.at("ranges"));
   h.lightEntries = set.at("light_entries").count();
   h.texels = set.at("texels").count();
   h.ledger = ledgerFromState(set.at("ledger"));
   // A scene without light is not traced.
-  if (h.ledger.photons != 0 && h.ledger.photons != h.photons.count()) set.at("ledger").refuse("is of another number of photons");
+  if (h.ledger.photons != 0 && h.ledger.photons != h.photons.count())
+    set.at("ledger").refuse("is of another number of photons");
   h.content = hashAt(v.at("content_hash"));
   // Unknown members and a normaliser, channels or layers of another kind would mean another format.
   if (toJson(h) != v.json()) v.refuse("has members that this program does not know");

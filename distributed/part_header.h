@@ -14,7 +14,8 @@
 
 namespace lucarne {
 
-/// A part that cannot be used: cut short, altered, of another kind. An InputError, so that reading one alone exits with 3.
+/// A part that cannot be used: cut short, altered, of another kind. An InputError, so that reading one alone exits
+/// with 3.
 class PartError : public InputError {
  public:
   using InputError::InputError;
@@ -23,11 +24,11 @@ class PartError : public InputError {
 /// Of which bake: what decides every bit of the tallies, and how maps are made of them. Parts that differ in it are not
 /// of one bake.
 struct BakeIdentity {
-  Hash128 scene;             // of the scene's bytes, packed as one GLB
-  nlohmann::json settings;   // flat object: all that photons and tallies depend on, the seed among them
-  nlohmann::json resolve;    // flat object: the kernel. Tallies do not depend on it
-  Hash128 layout;            // of charts, texels, directions and the order of tallies
-  double emittedFlux = 0;    // lm, mean over channels
+  Hash128 scene;            // of the scene's bytes, packed as one GLB
+  nlohmann::json settings;  // flat object: all that photons and tallies depend on, the seed among them
+  nlohmann::json resolve;   // flat object: the kernel. Tallies do not depend on it
+  Hash128 layout;           // of charts, texels, directions and the order of tallies
+  double emittedFlux = 0;   // lm, mean over channels
 
   Hash128 settingsHash() const;
 };

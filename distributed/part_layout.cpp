@@ -59,11 +59,12 @@ void join(PartLayer layer, const std::uint32_t* row, std::size_t pixels, std::in
 }  // namespace
 
 ExrRows partRows(const PartHeader& header, const std::string& file) {
-  return ExrRows(kPartWidth,
-                 {{"scene", {"bytes"}, rowsFor((header.sceneBytes + 3) / 4, file)},
-                  {"photons.light", {"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}, rowsFor(header.lightEntries, file)},
-                  {"photons.statistics", {"count.hi", "count.lo", "m2.hi", "m2.lo"}, rowsFor(header.texels, file)}},
-                 kAttribute, toJson(header).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return ExrRows(
+      kPartWidth,
+      {{"scene", {"bytes"}, rowsFor((header.sceneBytes + 3) / 4, file)},
+       {"photons.light", {"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}, rowsFor(header.lightEntries, file)},
+       {"photons.statistics", {"count.hi", "count.lo", "m2.hi", "m2.lo"}, rowsFor(header.texels, file)}},
+      kAttribute, toJson(header).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<std::uint32_t> row) {

@@ -6,8 +6,8 @@
 
 namespace lucarne {
 
-/// Pixels in a row of every layer. A pixel is one (texel, ψ) of the light, one texel of the statistics, or four bytes of
-/// the scene; the last row of a layer is filled up with zeros.
+/// Pixels in a row of every layer. A pixel is one (texel, ψ) of the light, one texel of the statistics, or four bytes
+/// of the scene; the last row of a layer is filled up with zeros.
 inline constexpr int kPartWidth = 2048;
 
 enum class PartLayer : std::uint8_t { scene, light, statistics };

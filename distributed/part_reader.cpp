@@ -25,7 +25,8 @@ class SequentialReader {
 
  private:
   void refill(std::size_t count) {
-    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(at_), buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(at_), buffer_.begin() + static_cast<std::ptrdiff_t>(end_),
+              buffer_.begin());
     end_ -= at_;
     at_ = 0;
     if (buffer_.size() < std::max(count, kBlock)) buffer_.resize(std::max(count, kBlock));
@@ -99,7 +100,8 @@ class PartStream {
     forRows(layer, [&](std::uint64_t y, std::span<const std::byte> row) {
       std::memcpy(words.data(), row.data(), row.size());
       const std::uint64_t first = y * kPartWidth;
-      const auto here = std::span(values).first(channels * std::min<std::uint64_t>(kPartWidth, pixels - std::min(pixels, first)));
+      const auto here =
+          std::span(values).first(channels * std::min<std::uint64_t>(kPartWidth, pixels - std::min(pixels, first)));
       joinRow(layer, words, here);
       content_.add(std::as_bytes(here));
       if (sink_.tallies) sink_.tallies(layer, first * channels, here);
@@ -145,17 +147,18 @@ PartHeader PartReader::readHeader() const {
   }
 }
 
-PartReader::PartReader(const std::filesystem::path& path)
-    : file_(path), header_(readHeader()), rows_(0, {}, "", "") {
+PartReader::PartReader(const std::filesystem::path& path) : file_(path), header_(readHeader()), rows_(0, {}, "", "") {
   // Before anything of that size is made: a layer takes at least its bytes in the file.
   const std::uint64_t size = file_.size();
   if (header_.sceneBytes > size || header_.lightEntries > size / 24 || header_.texels > size / 16) {
-    throw PartError(path.string() + " is cut short: it has " + std::to_string(size) + " bytes, fewer than its tallies take");
+    throw PartError(path.string() + " is cut short: it has " + std::to_string(size) +
+                    " bytes, fewer than its tallies take");
   }
   rows_ = partRows(header_, path.string());
   const std::uint64_t whole = rows_.fileBytes() + kSealBytes;
   if (size < whole) {
-    throw PartError(path.string() + " is cut short: it has " + std::to_string(size) + " of " + std::to_string(whole) + " bytes");
+    throw PartError(path.string() + " is cut short: it has " + std::to_string(size) + " of " + std::to_string(whole) +
+                    " bytes");
   }
   if (size > whole) {
     throw PartError(path.string() + " was altered: it has " + std::to_string(size - whole) + " bytes too many");
@@ -166,8 +169,8 @@ void PartReader::stream(const Sink& sink) const { PartStream(file_, header_, row
 
 namespace {
 
-/// Adds rows of tallies, and remembers the signs of what it added and of what came out: two numbers of 63 bits add up to
-/// one of 64, so no sum that is too large goes unseen.
+/// Adds rows of tallies, and remembers the signs of what it added and of what came out: two numbers of 63 bits add up
+/// to one of 64, so no sum that is too large goes unseen.
 class TallyAdder {
  public:
   explicit TallyAdder(Tallies& tallies) : tallies_(tallies) {}
@@ -197,9 +200,13 @@ void addPart(const PartReader& part, Tallies& tallies, std::vector<std::uint8_t>
   LUCARNE_CHECK_EQ(tallies.statistics().size(), part.header().texels * kStatisticsChannels);
   TallyAdder adder(tallies);
   PartReader::Sink sink;
-  sink.tallies = [&](PartLayer layer, std::uint64_t first, std::span<const std::int64_t> values) { adder.add(layer, first, values); };
+  sink.tallies = [&](PartLayer layer, std::uint64_t first, std::span<const std::int64_t> values) {
+    adder.add(layer, first, values);
+  };
   if (scene != nullptr) {
-    sink.scene = [scene](std::span<const std::uint8_t> bytes) { scene->insert(scene->end(), bytes.begin(), bytes.end()); };
+    sink.scene = [scene](std::span<const std::uint8_t> bytes) {
+      scene->insert(scene->end(), bytes.begin(), bytes.end());
+    };
   }
   part.stream(sink);
   if (adder.metNegative()) throw PartError(part.path().string() + " was altered: a tally is negative");

@@ -30,7 +30,8 @@ void writeScene(const ExrRows& rows, std::span<const std::uint8_t> scene, Sealed
   const std::size_t rowBytes = rows.rowBytes(kLayer);
   for (int y = 0; y < rows.layers()[kLayer].height; ++y) {
     const auto bytes = scene.subspan(std::min(scene.size(), static_cast<std::size_t>(y) * rowBytes));
-    std::vector<std::uint8_t> row(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(rowBytes, bytes.size())));
+    std::vector<std::uint8_t> row(bytes.begin(),
+                                  bytes.begin() + static_cast<std::ptrdiff_t>(std::min(rowBytes, bytes.size())));
     row.resize(rowBytes);
     file.write(rows.rowHead(kLayer, y));
     file.write(row.data(), row.size());
@@ -56,7 +57,8 @@ void writeTallies(const ExrRows& rows, PartLayer layer, std::span<const std::int
 
 }  // namespace
 
-void writePart(const std::filesystem::path& path, PartHeader header, std::span<const std::uint8_t> scene, const Tallies& tallies) {
+void writePart(const std::filesystem::path& path, PartHeader header, std::span<const std::uint8_t> scene,
+               const Tallies& tallies) {
   header.sceneBytes = scene.size();
   header.lightEntries = tallies.light().size() / kLightChannels;
   header.texels = tallies.statistics().size() / kStatisticsChannels;

@@ -63,7 +63,8 @@ class SinkWorker final : public Worker {
   Ledger ledger_;
 };
 
-/// Batches grow until one takes about a quarter of a second: progress stays lively and the barrier between costs little.
+/// Batches grow until one takes about a quarter of a second: progress stays lively and the barrier between costs
+/// little.
 class BatchSize {
  public:
   std::uint64_t next() const { return size_; }
@@ -82,7 +83,8 @@ class BatchSize {
 void checkTalliesFit(const FluxSum& incident) {
   for (const Int128 sum : incident.units)
     if (sum >= (Int128{1} << 63))
-      throw Error(ExitCode::outOfResource, "tallies are full: bake fewer photons, or in parts with their own light maps");
+      throw Error(ExitCode::outOfResource,
+                  "tallies are full: bake fewer photons, or in parts with their own light maps");
 }
 
 class PhotonRun::Impl {
@@ -135,7 +137,8 @@ class PhotonRun::Impl {
     const auto start = std::chrono::steady_clock::now();
     arena_.execute([&] {
       tbb::parallel_for(
-          std::size_t{0}, workers_.size(), [&](std::size_t w) { workers_[w]->take(taken, range); }, tbb::simple_partitioner());
+          std::size_t{0}, workers_.size(), [&](std::size_t w) { workers_[w]->take(taken, range); },
+          tbb::simple_partitioner());
     });
     batch_.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }

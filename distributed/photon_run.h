@@ -29,8 +29,8 @@ struct PhotonTask {
   const DirectionSet& directions;
 };
 
-/// Threads take chunks of a range from a counter; adds are integers, so the result is the same for every number of threads
-/// and every cut into ranges.
+/// Threads take chunks of a range from a counter; adds are integers, so the result is the same for every number of
+/// threads and every cut into ranges.
 class PhotonRun {
  public:
   PhotonRun(const PhotonTask& task, const PhotonRunOptions& options, Tallies& tallies);
@@ -38,13 +38,13 @@ class PhotonRun {
   PhotonRun(const PhotonRun&) = delete;
   PhotonRun& operator=(const PhotonRun&) = delete;
 
-  /// Traces the range in batches of about a quarter of a second; `progress` is called between them, with what all ranges
-  /// since the last collect() came to, and when it returns false the run stops after a whole batch. Returns how many
-  /// photons of the range, from its beginning, were traced.
+  /// Traces the range in batches of about a quarter of a second; `progress` is called between them, with what all
+  /// ranges since the last collect() came to, and when it returns false the run stops after a whole batch. Returns how
+  /// many photons of the range, from its beginning, were traced.
   std::uint64_t trace(IndexRange range, const std::function<bool(const RunProgress&)>& progress);
 
-  /// Brings everything traced since the last call into the tallies, and adds its ledger. Throws Error(outOfResource) when
-  /// the ledger's incident flux passes the 63 bits that a single tally holds.
+  /// Brings everything traced since the last call into the tallies, and adds its ledger. Throws Error(outOfResource)
+  /// when the ledger's incident flux passes the 63 bits that a single tally holds.
   void collect(Ledger& ledger);
 
  private:

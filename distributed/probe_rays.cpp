@@ -29,7 +29,8 @@ Hash128 probeRays(const PhotonScene& scene) {
   Ledger ledger;
   TraceLimits limits;
   limits.depth = kDepth;
-  for (std::uint64_t i = 0; i < kSegments && ledger.rays < kSegments; ++i) tracePhotons(scene, {i, i + 1}, kSeed, limits, sink, ledger);
+  for (std::uint64_t i = 0; i < kSegments && ledger.rays < kSegments; ++i)
+    tracePhotons(scene, {i, i + 1}, kSeed, limits, sink, ledger);
   return sink.hasher.finish();
 }
 

@@ -6,8 +6,8 @@
 
 namespace lucarne {
 
-/// Hash over 4096 segments of photons of a fixed seed: what they met, where, and with how much flux. Machines on which it
-/// is equal give the same photons (as far as 4096 segments tell); it takes milliseconds.
+/// Hash over 4096 segments of photons of a fixed seed: what they met, where, and with how much flux. Machines on which
+/// it is equal give the same photons (as far as 4096 segments tell); it takes milliseconds.
 Hash128 probeRays(const PhotonScene& scene);
 
 }  // namespace lucarne

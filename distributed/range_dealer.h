@@ -7,8 +7,8 @@
 
 namespace lucarne {
 
-/// Deals a range out in order, so that what was dealt is always a beginning of it. A piece is about a second's work of the
-/// rank that gets it, by the rate it showed, and at most its share of half of what is left (guided self-scheduling,
+/// Deals a range out in order, so that what was dealt is always a beginning of it. A piece is about a second's work of
+/// the rank that gets it, by the rate it showed, and at most its share of half of what is left (guided self-scheduling,
 /// Polychronopoulos and Kuck 1987, halved).
 class RangeDealer {
  public:

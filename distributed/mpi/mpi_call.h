@@ -5,8 +5,8 @@
 
 namespace lucarne {
 
-/// Throws Error(failed) "MPI_Reduce failed on rank 3: MPI's own text" unless the code is MPI_SUCCESS. Communicators must
-/// return errors (MPI_ERRORS_RETURN) for this to be reached.
+/// Throws Error(failed) "MPI_Reduce failed on rank 3: MPI's own text" unless the code is MPI_SUCCESS. Communicators
+/// must return errors (MPI_ERRORS_RETURN) for this to be reached.
 void checkMpi(int code, const char* call);
 
 }  // namespace lucarne

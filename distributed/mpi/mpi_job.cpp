@@ -17,7 +17,8 @@ class Session {
   Session() {
     int provided = 0;
     checkMpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
-    if (provided < MPI_THREAD_FUNNELED) throw Error(ExitCode::failed, "this MPI allows no threads beside its own; use another");
+    if (provided < MPI_THREAD_FUNNELED)
+      throw Error(ExitCode::failed, "this MPI allows no threads beside its own; use another");
     checkMpi(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   }
   ~Session() { MPI_Finalize(); }
@@ -93,7 +94,8 @@ class MpiJobImpl final : public MpiJob {
     bytes.resize(size);
     constexpr std::uint64_t kBlock = std::uint64_t{1} << 30;  // MPI counts in int
     for (std::uint64_t at = 0; at < size; at += kBlock)
-      checkMpi(MPI_Bcast(bytes.data() + at, static_cast<int>(std::min(kBlock, size - at)), MPI_BYTE, root, comm_), "MPI_Bcast");
+      checkMpi(MPI_Bcast(bytes.data() + at, static_cast<int>(std::min(kBlock, size - at)), MPI_BYTE, root, comm_),
+               "MPI_Bcast");
   }
 
   Session session_;

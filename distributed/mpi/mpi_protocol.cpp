@@ -40,7 +40,8 @@ std::optional<ReceivedReport> takeReport(MPI_Comm comm) {
   MPI_Status status;
   if (!arrived(comm, MPI_ANY_SOURCE, kReportTag, status)) return std::nullopt;
   ReceivedReport received{status.MPI_SOURCE, {}};
-  checkMpi(MPI_Recv(&received.report, sizeof(RankReport), MPI_BYTE, received.rank, kReportTag, comm, MPI_STATUS_IGNORE), "MPI_Recv");
+  checkMpi(MPI_Recv(&received.report, sizeof(RankReport), MPI_BYTE, received.rank, kReportTag, comm, MPI_STATUS_IGNORE),
+           "MPI_Recv");
   return received;
 }
 

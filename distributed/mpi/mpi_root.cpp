@@ -99,7 +99,8 @@ class Root {
     while (const auto received = takeReport(comm_)) heard = take(received->rank, received->report);
     const RunProgress own = own_.sinceCollected();
     const Ledger& ledger = state_.header.ledger;
-    job_.progress({state_.header.photons.count() + others_.photons + own.photons, ledger.rays + others_.rays + own.rays});
+    job_.progress(
+        {state_.header.photons.count() + others_.photons + own.photons, ledger.rays + others_.rays + own.rays});
     return heard;
   }
 
@@ -123,7 +124,9 @@ class Root {
     }
   }
 
-  bool allFree() const { return std::all_of(free_.begin(), free_.end(), [](bool f) { return f; }); }
+  bool allFree() const {
+    return std::all_of(free_.begin(), free_.end(), [](bool f) { return f; });
+  }
 
   /// Every rank is free and told to add its tallies to ours; then it says again that it is free.
   void collect() {

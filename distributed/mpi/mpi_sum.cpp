@@ -34,8 +34,8 @@ struct Shares {
   }
 };
 
-/// Every rank adds up its share of each block, and rank 0 gathers the shares: two transfers of the tallies whatever the number
-/// of ranks, where a plain MPI_Reduce of large blocks takes log2 of it (docs/scaling.md).
+/// Every rank adds up its share of each block, and rank 0 gathers the shares: two transfers of the tallies whatever the
+/// number of ranks, where a plain MPI_Reduce of large blocks takes log2 of it (docs/scaling.md).
 void sumSpan(MPI_Comm comm, std::span<std::int64_t> values) {
   const auto rank = static_cast<std::size_t>(rankOf(comm));
   std::vector<std::int64_t> share;
@@ -44,8 +44,10 @@ void sumSpan(MPI_Comm comm, std::span<std::int64_t> values) {
     const Shares shares(count, static_cast<std::size_t>(sizeOf(comm)));
     share.resize(static_cast<std::size_t>(shares.counts[rank]));
     std::int64_t* block = values.data() + at;
-    checkMpi(MPI_Reduce_scatter(block, share.data(), shares.counts.data(), MPI_INT64_T, MPI_SUM, comm), "MPI_Reduce_scatter");
-    checkMpi(MPI_Gatherv(share.data(), shares.counts[rank], MPI_INT64_T, block, shares.counts.data(), shares.starts.data(), MPI_INT64_T, 0, comm),
+    checkMpi(MPI_Reduce_scatter(block, share.data(), shares.counts.data(), MPI_INT64_T, MPI_SUM, comm),
+             "MPI_Reduce_scatter");
+    checkMpi(MPI_Gatherv(share.data(), shares.counts[rank], MPI_INT64_T, block, shares.counts.data(),
+                         shares.starts.data(), MPI_INT64_T, 0, comm),
              "MPI_Gatherv");
   }
 }

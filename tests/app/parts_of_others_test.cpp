@@ -59,10 +59,10 @@ class PartsOfOthers : public testing::Test {
 };
 
 TEST_F(PartsOfOthers, WhoseRaysDifferMergeWithAWarningThatSaysWhatItMeans) {
-  const fs::path a = bakePart(1, [](Maker&) {}), b = bakePart(2, [](Maker& m) {
-    m.processor = "Other CPU";
-    m.probeRays.lo ^= 1;
-  });
+  const fs::path a = bakePart(1, [](Maker&) {}), b = bakePart(2, [](Maker&m) {
+                                                   m.processor = "Other CPU";
+                                                   m.probeRays.lo ^= 1;
+                                                 });
   const PartSet parts = joinParts({a, b}, true);
   const std::string warning = makersWarning(parts.whole.makers);
   EXPECT_THAT(warning, testing::HasSubstr("Other CPU"));
@@ -74,7 +74,7 @@ TEST_F(PartsOfOthers, WhoseRaysDifferMergeWithAWarningThatSaysWhatItMeans) {
 }
 
 TEST_F(PartsOfOthers, WhoseRaysAgreeMergeWithoutAWord) {
-  const fs::path a = bakePart(1, [](Maker&) {}), b = bakePart(2, [](Maker& m) { m.processor = "Other CPU"; });
+  const fs::path a = bakePart(1, [](Maker&) {}), b = bakePart(2, [](Maker&m) { m.processor = "Other CPU"; });
   EXPECT_EQ(makersWarning(joinParts({a, b}, true).whole.makers), "");
 }
 
@@ -126,8 +126,9 @@ TEST_F(PartsOfOthers, AnotherLayoutOfTheSameSceneIsAnotherVersionOfLucarne) {
     FAIL() << "merged";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::mergeRefused);
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("part1.part and "), testing::HasSubstr("differ in layout"),
-                                             testing::HasSubstr("versions of Lucarne")));
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("part1.part and "), testing::HasSubstr("differ in layout"),
+                               testing::HasSubstr("versions of Lucarne")));
   }
   EXPECT_FALSE(fs::exists(folder_ / "merged.dlm"));
 }

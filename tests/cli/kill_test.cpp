@@ -36,7 +36,9 @@ class Kill : public test::ProgramTest {
     return false;
   }
 
-  static void sleepFor(double milliseconds) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds)); }
+  static void sleepFor(double milliseconds) {
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds));
+  }
 
   std::uint64_t savedPhotonsOf(const fs::path& state) const {
     const auto o = run("info '" + state.string() + "' --json");
@@ -54,7 +56,8 @@ class Kill : public test::ProgramTest {
   }
 
   void expectUndisturbed(const std::string& photons) {
-    mustRun(std::string("bake") + test::kQuickScene + "-o whole.dlm --density 10 --threads 2 --quiet --photons " + photons);
+    mustRun(std::string("bake") + test::kQuickScene + "-o whole.dlm --density 10 --threads 2 --quiet --photons " +
+            photons);
     EXPECT_EQ(contentHash("room.dlm"), contentHash("whole.dlm"));
     EXPECT_TRUE(same("room.dlm", "whole.dlm"));
     EXPECT_FALSE(exists("room.checkpoint"));
@@ -109,7 +112,8 @@ TEST_F(Kill, ADamagedNewestStateFallsBackWithAMessage) {
     const auto twoStates = [&] {
       std::error_code none;
       int states = 0;
-      for (const auto& entry : fs::directory_iterator(folder_ / "room.checkpoint", none)) states += entry.path().extension() == ".part";
+      for (const auto& entry : fs::directory_iterator(folder_ / "room.checkpoint", none))
+        states += entry.path().extension() == ".part";
       return states >= 2;
     };
     ASSERT_TRUE(waitFor(bake, twoStates));

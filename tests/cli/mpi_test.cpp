@@ -26,7 +26,8 @@ class Mpi : public test::ProgramTest {
            "timeout -k 5 200 mpirun --oversubscribe --bind-to none ";
   }
   static std::string bake(const std::string& output, const std::string& photons) {
-    return std::string("\"$LUCARNE\" bake") + kQuickScene + "--density 10 --quiet -o " + output + " --photons " + photons + " ";
+    return std::string("\"$LUCARNE\" bake") + kQuickScene + "--density 10 --quiet -o " + output + " --photons " +
+           photons + " ";
   }
 };
 
@@ -38,18 +39,19 @@ class MpiTeams : public Mpi, public testing::WithParamInterface<Team> {};
 TEST_P(MpiTeams, GiveEveryFileBitForBit) {
   const auto [ranks, threads] = GetParam();
   ASSERT_EQ(shell(bake("whole.dlm", "300k") + "--threads 2").code, 0);
-  const auto o = shell(mpirun() + "-n " + std::to_string(ranks) + " " + bake("team.dlm", "300k") + "--report team.json --threads " +
-                       std::to_string(threads));
+  const auto o = shell(mpirun() + "-n " + std::to_string(ranks) + " " + bake("team.dlm", "300k") +
+                       "--report team.json --threads " + std::to_string(threads));
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(contentHash("team.dlm"), contentHash("whole.dlm"));
   EXPECT_TRUE(same("team.dlm", "whole.dlm"));
   EXPECT_EQ(nlohmann::json::parse(test::slurp(folder_ / "team.json"))["photons"], 300'000);
 }
 INSTANTIATE_TEST_SUITE_P(RanksAndThreads, MpiTeams,
-                         testing::Values(Team{1, 1}, Team{1, 2}, Team{1, 3}, Team{2, 1}, Team{2, 2}, Team{2, 3}, Team{3, 1}, Team{3, 2},
-                                         Team{3, 3}, Team{5, 1}, Team{5, 2}, Team{5, 3}),
+                         testing::Values(Team{1, 1}, Team{1, 2}, Team{1, 3}, Team{2, 1}, Team{2, 2}, Team{2, 3},
+                                         Team{3, 1}, Team{3, 2}, Team{3, 3}, Team{5, 1}, Team{5, 2}, Team{5, 3}),
                          [](const auto& team) {
-                           return std::to_string(team.param.ranks) + "Ranks" + std::to_string(team.param.threads) + "Threads";
+                           return std::to_string(team.param.ranks) + "Ranks" + std::to_string(team.param.threads) +
+                                  "Threads";
                          });
 
 TEST_F(Mpi, PartsOfTeamsOfAnySizeMergeToTheBakeOfOne) {
@@ -57,9 +59,10 @@ TEST_F(Mpi, PartsOfTeamsOfAnySizeMergeToTheBakeOfOne) {
   std::mt19937 random(3);
   std::string inputs;
   for (int k = 1; k <= 5; ++k) {
-    const std::string name = "p" + std::to_string(k) + ".part", ranks = std::to_string(std::array{1, 2, 3, 5}[random() % 4]);
-    const auto o = shell(mpirun() + "-n " + ranks + " " + bake(name, "200k") + "--threads " + std::to_string(1 + random() % 3) + " --part " +
-                         std::to_string(k) + "/5");
+    const std::string name = "p" + std::to_string(k) + ".part",
+                      ranks = std::to_string(std::array{1, 2, 3, 5}[random() % 4]);
+    const auto o = shell(mpirun() + "-n " + ranks + " " + bake(name, "200k") + "--threads " +
+                         std::to_string(1 + random() % 3) + " --part " + std::to_string(k) + "/5");
     ASSERT_EQ(o.code, 0) << o.err;
     inputs = (random() % 2 == 0 ? inputs + " " + name : name + " " + inputs);
   }
@@ -76,7 +79,8 @@ TEST_F(Mpi, CheckpointsOnTheWayChangeNothing) {
 }
 
 TEST_F(Mpi, AKilledRankEndsTheJobWhichGoesOnWithFewerToTheSameBits) {
-  test::Background job(folder_, "env " + mpirun() + "-n 3 " + bake("team.dlm", "1G") + "--threads 1 --checkpoint 0.05s");
+  test::Background job(folder_,
+                       "env " + mpirun() + "-n 3 " + bake("team.dlm", "1G") + "--threads 1 --checkpoint 0.05s");
   const auto states = [this] {
     std::error_code none;
     std::vector<std::string> names;
@@ -116,7 +120,8 @@ TEST_F(Mpi, RanksThatWereStartedDifferentlyAreRefused) {
 }
 
 TEST_F(Mpi, AnErrorOfAnotherRankEndsAllWithItsMessage) {
-  const auto o = shell(mpirun() + "-n 2 " + bake("x.dlm", "100k") + ": -n 1 " + bake("x.dlm", "100k") + "--isa nonsense");
+  const auto o =
+      shell(mpirun() + "-n 2 " + bake("x.dlm", "100k") + ": -n 1 " + bake("x.dlm", "100k") + "--isa nonsense");
   EXPECT_NE(o.code, 0);
   EXPECT_NE(o.err.find("lucarne: rank 2: --isa"), std::string::npos) << o.err;
   EXPECT_FALSE(exists("x.dlm"));
@@ -127,8 +132,8 @@ TEST_F(Mpi, AnErrorThatTheOthersDoNotKnowOfEndsAllWithItsMessage) {
   GTEST_SKIP() << "the address sanitizer needs more memory than the limit of this test";
 #endif
   // Rank 0 alone writes, and may write nothing larger than a block.
-  const auto o = shell(mpirun() + "-n 1 sh -c 'trap \"\" XFSZ; ulimit -f 1; exec " + bake("x.dlm", "5M") + "--checkpoint 0' : -n 2 " +
-                       bake("x.dlm", "5M") + "--checkpoint 0");
+  const auto o = shell(mpirun() + "-n 1 sh -c 'trap \"\" XFSZ; ulimit -f 1; exec " + bake("x.dlm", "5M") +
+                       "--checkpoint 0' : -n 2 " + bake("x.dlm", "5M") + "--checkpoint 0");
   EXPECT_NE(o.code, 0);
   EXPECT_NE(o.err.find("lucarne: rank 0: cannot write"), std::string::npos) << o.err;
   EXPECT_FALSE(exists("x.dlm"));

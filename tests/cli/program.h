@@ -72,7 +72,8 @@ class Background {
     // On both sides, so that the group is there whoever runs first.
     ::setpgid(pid_, pid_);
     if (pid_ != 0) return;
-    const std::string command = "cd '" + folder.string() + "' && export LUCARNE='" LUCARNE_PROGRAM "' && exec " + line + " >>log 2>&1";
+    const std::string command =
+        "cd '" + folder.string() + "' && export LUCARNE='" LUCARNE_PROGRAM "' && exec " + line + " >>log 2>&1";
     ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
     ::_exit(127);
   }

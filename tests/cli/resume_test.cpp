@@ -11,7 +11,8 @@ class Resume : public test::ProgramTest {
  protected:
   /// A bake that was killed after its first state.
   void leaveState(const std::string& options) {
-    test::Background bake(folder_, std::string("\"$LUCARNE\" bake") + kQuickScene + "-o room.dlm --density 10 --checkpoint 0.05s --quiet " + options);
+    test::Background bake(folder_, std::string("\"$LUCARNE\" bake") + kQuickScene +
+                                       "-o room.dlm --density 10 --checkpoint 0.05s --quiet " + options);
     while (bake.running() && states() == 0) ::usleep(1000);
     bake.kill();
     ASSERT_GT(states(), 0);
@@ -25,7 +26,8 @@ class Resume : public test::ProgramTest {
   int states() const {
     int count = 0;
     std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder_ / "room.checkpoint", none)) count += entry.path().extension() == ".part";
+    for (const auto& entry : fs::directory_iterator(folder_ / "room.checkpoint", none))
+      count += entry.path().extension() == ".part";
     return count;
   }
   void expectRefused(const std::string& options, int code, const std::string& words) {
@@ -54,8 +56,10 @@ TEST_F(Resume, WithAnotherKernelOrFormatGoesOn) {
   leaveState("--photons 1G");
   const auto state = nlohmann::json::parse(run("info room.checkpoint/" + newestState() + " --json").out);
   const std::string photons = std::to_string(state["photons"].get<std::uint64_t>() + 50'000);
-  mustRun(std::string("bake") + kQuickScene + "-o whole.dlm --density 10 --kernel box --format float --quiet --photons " + photons);
-  mustRun(std::string("bake") + kQuickScene + "-o room.dlm --density 10 --kernel box --format float --resume --quiet --photons " + photons);
+  mustRun(std::string("bake") + kQuickScene +
+          "-o whole.dlm --density 10 --kernel box --format float --quiet --photons " + photons);
+  mustRun(std::string("bake") + kQuickScene +
+          "-o room.dlm --density 10 --kernel box --format float --resume --quiet --photons " + photons);
   EXPECT_TRUE(same("room.dlm", "whole.dlm"));
 }
 
@@ -77,10 +81,13 @@ TEST_F(Resume, WithoutAStateStartsAnew) {
 TEST_F(Resume, OfAFinishedBakeRewritesTheReportAlone) {
   mustRun(std::string("bake") + kQuickScene + "-o room.dlm --density 10 --photons 200k --report a.json --quiet");
   const auto written = fs::last_write_time(folder_ / "room.dlm" / "manifest.json");
-  mustRun(std::string("bake") + kQuickScene + "-o room.dlm --density 10 --photons 200k --report b.json --resume --quiet");
+  mustRun(std::string("bake") + kQuickScene +
+          "-o room.dlm --density 10 --photons 200k --report b.json --resume --quiet");
   EXPECT_EQ(fs::last_write_time(folder_ / "room.dlm" / "manifest.json"), written);
-  mustRun(std::string("bake") + kQuickScene + "-o room.dlm --density 10 --photons 200k --report a.json --resume --quiet");
-  const auto a = nlohmann::json::parse(test::slurp(folder_ / "a.json")), b = nlohmann::json::parse(test::slurp(folder_ / "b.json"));
+  mustRun(std::string("bake") + kQuickScene +
+          "-o room.dlm --density 10 --photons 200k --report a.json --resume --quiet");
+  const auto a = nlohmann::json::parse(test::slurp(folder_ / "a.json")),
+             b = nlohmann::json::parse(test::slurp(folder_ / "b.json"));
   EXPECT_EQ(a["content_hash"], b["content_hash"]);
   EXPECT_GT(a["seconds"].get<double>(), 0) << "times of the run that traced, where its report is still there";
   for (const auto& [key, value] : a.items()) EXPECT_TRUE(b.contains(key)) << key;
@@ -89,7 +96,8 @@ TEST_F(Resume, OfAFinishedBakeRewritesTheReportAlone) {
 TEST_F(Resume, WithMorePhotonsGoesOnFromAFinishedPart) {
   mustRun(std::string("bake") + kQuickScene + "-o room.dlm --density 10 --photons 100k --keep-part --quiet");
   ASSERT_TRUE(exists("room.part"));
-  const auto o = run(std::string("bake") + kQuickScene + "-o room.dlm --density 10 --photons 250k --resume --keep-part");
+  const auto o =
+      run(std::string("bake") + kQuickScene + "-o room.dlm --density 10 --photons 250k --resume --keep-part");
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.err.find("going on from 100k photons"), std::string::npos) << o.err;
   mustRun(std::string("bake") + kQuickScene + "-o whole.dlm --density 10 --photons 250k --quiet");
@@ -99,7 +107,8 @@ TEST_F(Resume, WithMorePhotonsGoesOnFromAFinishedPart) {
 TEST_F(Resume, OfAPartTracesNothingTwice) {
   mustRun(std::string("bake") + kQuickScene + "-o room.part --density 10 --photons 200k --part 2/4 --quiet");
   const std::string hash = contentHash("room.part");
-  const auto o = run(std::string("bake") + kQuickScene + "-o room.part --density 10 --photons 200k --part 2/4 --resume");
+  const auto o =
+      run(std::string("bake") + kQuickScene + "-o room.part --density 10 --photons 200k --part 2/4 --resume");
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.err.find("going on from 50k photons"), std::string::npos) << o.err;
   EXPECT_EQ(contentHash("room.part"), hash);
@@ -115,7 +124,8 @@ TEST_F(Resume, APartIsNotReplacedByOtherPhotons) {
 }
 
 TEST_F(Resume, TwoBakesOfOneOutputAreNotMixed) {
-  test::Background bake(folder_, std::string("\"$LUCARNE\" bake") + kQuickScene + "-o room.dlm --density 10 --checkpoint 0.05s --quiet --photons 1G");
+  test::Background bake(folder_, std::string("\"$LUCARNE\" bake") + kQuickScene +
+                                     "-o room.dlm --density 10 --checkpoint 0.05s --quiet --photons 1G");
   while (bake.running() && states() == 0) ::usleep(1000);
   const auto o = run(std::string("bake") + kQuickScene + "-o room.dlm --density 10 --photons 1k --quiet");
   EXPECT_EQ(o.code, 1);

@@ -5,7 +5,8 @@
 
 namespace lucarne {
 
-/// Every image of `source` that has a URI and bytes becomes a buffer view of `document`, whose images are those of `source`.
+/// Every image of `source` that has a URI and bytes becomes a buffer view of `document`, whose images are those of
+/// `source`.
 void embedImages(const GltfSource& source, GltfDocument& document);
 
 }  // namespace lucarne

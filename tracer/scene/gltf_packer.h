@@ -11,8 +11,8 @@
 namespace lucarne {
 
 /// Buffers and images of other files move into the one binary chunk; nothing else changes, and nothing is dropped but
-/// bytes that no buffer view holds. The same document gives the same bytes wherever its files lie, and packing the result
-/// again gives it once more. An image file that is missing stays missing.
+/// bytes that no buffer view holds. The same document gives the same bytes wherever its files lie, and packing the
+/// result again gives it once more. An image file that is missing stays missing.
 std::vector<std::uint8_t> packGltf(const GltfSource& source);
 
 /// A scene as it is read from its packed bytes: the same on every machine that has them.
