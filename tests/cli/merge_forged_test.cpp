@@ -24,6 +24,8 @@ class ForgedParts : public test::MergeTest {
 TEST_F(ForgedParts, TalliesOfAnotherSizeThanTheLayoutAreRefused) {
   forge([](PartHeader&, std::vector<std::uint8_t>&, Tallies& t) { t = Tallies(1, 1); });
   expectNamed();
+  forge([](PartHeader& h, std::vector<std::uint8_t>&, Tallies& t) { t = Tallies(1, h.texels); });
+  expectNamed();
   forge([](PartHeader& h, std::vector<std::uint8_t>&, Tallies& t) { t = Tallies(h.lightEntries - 1, h.texels); });
   expectNamed();
   forge([](PartHeader& h, std::vector<std::uint8_t>&, Tallies& t) { t = Tallies(h.lightEntries, h.texels + 1); });
