@@ -15,7 +15,7 @@ need mpirun openmpi-bin
 need ssh openssh-client
 need sshd openssh-server
 need_namespaces
-isolate 150 "$lucarne"
+isolate 300 "$lucarne"
 
 scene=$here/../../scenes/two_lamps.glb
 bake_options=(--photons "$(photons_for 16)" --density 4)

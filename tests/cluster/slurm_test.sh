@@ -18,7 +18,7 @@ need sbatch slurm-wlm
 need munged munge
 need mpirun openmpi-bin
 need_namespaces
-isolate 175 "$lucarne"
+isolate 300 "$lucarne"
 
 recipes=$here/../../scripts/cluster
 scene=$here/../../scenes/two_lamps.glb

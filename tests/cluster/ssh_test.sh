@@ -14,7 +14,7 @@ lucarne=$(realpath -e "$1")
 need ssh openssh-client
 need sshd openssh-server
 need_namespaces
-isolate 170 "$lucarne"
+isolate 300 "$lucarne"
 
 recipe=$here/../../scripts/cluster/ssh-machines.sh
 scene=$here/../../scenes/two_lamps.glb
