@@ -16,8 +16,6 @@ using nlohmann::json;
 constexpr std::array<const char*, 3> kShapes = {"pyramid", "box", "epanechnikov"};
 constexpr std::array<const char*, 3> kLightParts = {"all", "direct", "indirect"};
 
-constexpr const char* kParts = "the parts";  // of which errors speak
-
 /// The place of a view's text among names.
 template <class T, std::size_t n>
 T choiceAt(const JsonView& view, const std::array<const char*, n>& names) {
@@ -42,8 +40,8 @@ std::string shortest(double value) {
 }
 
 /// As optionsOf(), with an InputError.
-BakeOptions readOptions(const PartHeader& header) {
-  const JsonView s(header.identity.settings, kParts), r(header.identity.resolve, kParts);
+BakeOptions readOptions(const PartHeader& header, const std::string& file) {
+  const JsonView s(header.identity.settings, file), r(header.identity.resolve, file);
   BakeOptions o;
   o.directions = static_cast<int>(s.at("directions").integer(1, 4096));
   o.texelsPerMetre = s.at("texels_per_metre").number();
@@ -78,19 +76,23 @@ json resolveSettings(const BakeOptions& o) {
   return {{"kernel", kShapes[static_cast<std::size_t>(o.kernel.shape)]}, {"kernel_width", o.kernel.width}};
 }
 
-BakeOptions optionsOf(const PartHeader& header) {
+BakeOptions optionsOf(const PartHeader& header, const std::string& file) {
   try {
-    return readOptions(header);
+    return readOptions(header, file);
+  } catch (const UsageError& error) {
+    throw Error(ExitCode::mergeRefused, file + " has settings that no bake has: " + error.what());
   } catch (const Error& error) {
     throw Error(ExitCode::mergeRefused, error.what());
   }
 }
 
 std::string bakeCommand(const PartHeader& header, const std::string& output, const std::string& rest) {
-  const BakeOptions o = optionsOf(header), standard;
+  const BakeOptions o = optionsOf(header, output), standard;
   std::string text = "lucarne bake";
-  if (header.sceneName != kBuiltinSceneName) text += " " + quoted(header.sceneName);
-  text += " -o " + quoted(output);
+  // A name that begins with a hyphen would be taken for an option.
+  const std::string scene = (header.sceneName.starts_with('-') ? "./" : "") + header.sceneName;
+  if (header.sceneName != kBuiltinSceneName) text += " " + quoted(scene);
+  text += " -o " + quoted((output.starts_with('-') ? "./" : "") + output);
   const auto add = [&text](bool differs, const std::string& option) {
     if (differs) text += " " + option;
   };

@@ -14,9 +14,9 @@ nlohmann::json traceSettings(const BakeOptions& options);
 /// How maps are made of tallies.
 nlohmann::json resolveSettings(const BakeOptions& options);
 
-/// The options of a bake whose header this is; everything else as by default. Error(mergeRefused) for settings that
-/// this program does not know.
-BakeOptions optionsOf(const PartHeader& header);
+/// The options of a bake whose header this is; everything else as by default. Error(mergeRefused), naming `file`, for
+/// settings that this program does not know.
+BakeOptions optionsOf(const PartHeader& header, const std::string& file);
 
 /// "lucarne bake room.glb -o OUTPUT --seed 3 …": the command that bakes with these options, defaults left out, `rest`
 /// at the end. The scene's name is quoted for a shell.

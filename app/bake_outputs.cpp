@@ -11,32 +11,6 @@
 namespace lucarne {
 namespace {
 
-/// A part is replaced by a part with at least its photons, never by other photons.
-void checkPart(const std::filesystem::path& path, IndexRange photons) {
-  checkWritable(path);
-  if (!std::filesystem::exists(path)) return;
-  if (!isPart(path))
-    throw Error(ExitCode::failed,
-                "will not replace " + path.string() + ": it is not a part of a bake; remove it or name another");
-  try {
-    const PartHeader there = PartReader(path).header();
-    for (const IndexRange& r : there.photons.ranges()) {
-      if (r.begin >= photons.begin && r.end <= photons.end) continue;
-      throw Error(ExitCode::failed, "will not replace " + path.string() + ": it holds other photons (" +
-                                        toText(there.photons) + "); give each part a name of its own with -o");
-    }
-  } catch (const InputError&) {
-    return;  // damaged: no loss
-  }
-}
-
-void checkMaps(const std::filesystem::path& path) {
-  checkWritable(path);
-  if (std::filesystem::exists(path) && !holdsLightMaps(path))
-    throw Error(ExitCode::failed,
-                "will not replace " + path.string() + ": it is not a folder of light maps; remove it or name another");
-}
-
 /// The states hold the end of the bake unless they were turned off: then they are written now.
 void publishPart(const BakeOptions& options, const PackedScene& packed, const BakeState& state,
                  CheckpointFolder& folder) {
@@ -49,9 +23,35 @@ void publishPart(const BakeOptions& options, const PackedScene& packed, const Ba
 
 }  // namespace
 
+void checkPartOutput(const std::filesystem::path& path, const std::optional<IndexSet>& photons) {
+  checkWritable(path);
+  if (!std::filesystem::exists(path)) return;
+  if (!isPart(path))
+    throw Error(ExitCode::failed,
+                "will not replace " + path.string() + ": it is not a part of a bake; remove it or name another");
+  if (!photons) return;
+  try {
+    const PartHeader there = PartReader(path).header();
+    for (const IndexRange& r : there.photons.ranges()) {
+      if (photons->contains(r)) continue;
+      throw Error(ExitCode::failed, "will not replace " + path.string() + ": it holds other photons (" +
+                                        toText(there.photons) + "); give each part a name of its own with -o");
+    }
+  } catch (const InputError&) {
+    return;  // damaged: no loss
+  }
+}
+
+void checkMapsOutput(const std::filesystem::path& path) {
+  checkWritable(path);
+  if (std::filesystem::exists(path) && !holdsLightMaps(path))
+    throw Error(ExitCode::failed,
+                "will not replace " + path.string() + ": it is not a folder of light maps; remove it or name another");
+}
+
 void checkOutputs(const BakeOptions& options) {
-  if (writesPart(options) || options.keepPart) checkPart(partPath(options), photonsOf(options));
-  if (!writesPart(options)) checkMaps(options.output);
+  if (writesPart(options) || options.keepPart) checkPartOutput(partPath(options), IndexSet(photonsOf(options)));
+  if (!writesPart(options)) checkMapsOutput(options.output);
   if (options.report) checkWritable(*options.report);
 }
 

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/bake_plan.h"
 #include "distributed/bake_job.h"
 #include "tracer/scene/gltf_packer.h"
 
 namespace lucarne {
+
+/// Error(failed) unless a part can be written there: nothing but parts is replaced, and none that holds a photon which
+/// the new one lacks (not asked when `photons` is not known yet).
+void checkPartOutput(const std::filesystem::path& path, const std::optional<IndexSet>& photons);
+/// The same for a folder of light maps, which replaces such folders alone.
+void checkMapsOutput(const std::filesystem::path& path);
 
 /// Asked before the work, not after it: Error(failed) where an output cannot be written, or would replace something
 /// that a bake of these options did not make.

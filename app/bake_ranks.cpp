@@ -32,13 +32,13 @@ PartHeader headerFrom(const std::string& text, const std::string& name) {
 /// What two ranks differ in that makes their photons those of two bakes; empty where they agree.
 std::string difference(const PartHeader& a, const PartHeader& b) {
   const std::string &buildA = a.makers.begin()->build, &buildB = b.makers.begin()->build;
-  return buildA != buildB ? "build: " + buildA + " and " + buildB : lucarne::difference(a.identity, b.identity, true);
+  return buildA != buildB ? "build: " + buildA + " and " + buildB : lucarne::difference(a.identity, b.identity);
 }
 
 }  // namespace
 
 void joinMakers(MpiJob& mpi, PartHeader& header) {
-  const std::vector<std::string> all = mpi.gather(toJson(header).dump());
+  const std::vector<std::string> all = mpi.gather(toJson(header).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   mpi.agree([&] {
     const PartHeader root = headerFrom(all[0], "rank 0");
     for (std::size_t rank = 0; rank < all.size(); ++rank) {

@@ -15,7 +15,7 @@ namespace {
 
 /// A state goes on only in the program and on the processor that trace as it was traced.
 void checkSameBake(const PartHeader& wanted, const PartHeader& found, const std::string& file) {
-  std::string what = difference(wanted.identity, found.identity, false);
+  std::string what = difference(wanted.identity, found.identity, {kResolveMembers.begin(), kResolveMembers.end()});
   for (const Maker& here : wanted.makers) {
     for (const Maker& there : found.makers) {
       if (what.empty() && here.build != there.build) what = "build: " + here.build + " and " + there.build;

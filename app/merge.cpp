@@ -23,24 +23,23 @@ namespace fs = std::filesystem;
 
 bool toPart(const MergeOptions& options) { return options.output && options.output->extension() == ".part"; }
 
-/// Asked before the work.
-void checkOutput(const MergeOptions& options, const std::vector<fs::path>& inputs) {
-  if (options.report) checkWritable(*options.report);
-  if (!options.output) return;
-  checkWritable(*options.output);
+/// Inputs are never touched.
+void checkNoInput(const std::optional<fs::path>& output, const char* what, const std::vector<fs::path>& inputs) {
   std::error_code none;
   for (const fs::path& input : inputs) {
-    if (fs::equivalent(input, *options.output, none)) {
-      throw UsageError(options.output->string() +
-                       " is both a part to merge and the output; inputs are never touched: name another output");
-    }
+    if (!output || !fs::equivalent(input, *output, none)) continue;
+    throw UsageError(output->string() + " is both a part to merge and the " + what +
+                     "; inputs are never touched: name another " + what);
   }
-  if (!fs::exists(*options.output)) return;
-  if (toPart(options) ? !isPart(*options.output) : !holdsLightMaps(*options.output)) {
-    throw Error(ExitCode::failed, "will not replace " + options.output->string() + ": it is not " +
-                                      (toPart(options) ? "a part of a bake" : "a folder of light maps") +
-                                      "; remove it or name another");
-  }
+}
+
+/// Asked before the work.
+void checkOutput(const MergeOptions& options, const std::vector<fs::path>& inputs) {
+  checkNoInput(options.report, "report", inputs);
+  checkNoInput(options.output, "output", inputs);
+  if (options.report) checkWritable(*options.report);
+  if (options.output)
+    toPart(options) ? checkPartOutput(*options.output, std::nullopt) : checkMapsOutput(*options.output);
 }
 
 void checkMemory(const PartHeader& whole, bool resolves) {
@@ -87,30 +86,69 @@ class ReadingRate {
 };
 
 /// The kernel as asked for, or as the parts have it.
-void chooseKernel(const MergeOptions& options, PartHeader& whole) {
-  BakeOptions o = optionsOf(whole);
-  if (options.kernel) o.kernel.shape = *options.kernel;
-  if (options.kernelWidth) o.kernel.width = *options.kernelWidth;
-  checkSettings(o);
-  whole.identity.resolve = resolveSettings(o);
+void chooseKernel(const MergeOptions& options, BakeOptions& baked, PartHeader& whole) {
+  if (options.kernel) baked.kernel.shape = *options.kernel;
+  if (options.kernelWidth) baked.kernel.width = *options.kernelWidth;
+  checkSettings(baked);
+  whole.identity.resolve = resolveSettings(baked);
 }
 
-/// Light maps of the sum. The layout is made again from the scene; it must be the one that the tallies are of.
-nlohmann::json writeMaps(const MergeOptions& options, const PartHeader& whole, const std::vector<std::uint8_t>& glb,
-                         const Tallies& tallies) {
-  BakeOptions o = optionsOf(whole);
-  o.format = options.format;
-  const Scene scene = readGlb(glb, "the scene of the parts");
-  // Every chart has a side with texels in the tallies, so an honest layout has no more than those.
-  const BakePlan plan = makePlan(scene, o, whole.texels);
-  if (layoutHash(plan) != whole.identity.layout) {
-    throw Error(ExitCode::mergeRefused, "the parts were laid out by " + whole.makers.begin()->build +
-                                            ", and this program, " + buildName() +
-                                            ", lays the scene out otherwise: merge with that one, or bake again");
+/// Members of the kernel that the options give, so that the parts need not agree about them.
+std::set<std::string> chosenMembers(const MergeOptions& options) {
+  std::set<std::string> chosen;
+  if (options.kernel) chosen.insert("kernel");
+  if (options.kernelWidth) chosen.insert("kernel_width");
+  return chosen;
+}
+
+/// The scene and its layout, made again from what the parts carry; `name` is the part that errors speak of. The layout
+/// must be the one that the tallies are of.
+struct MergedScene {
+  Scene scene;
+  BakePlan plan;
+
+  MergedScene(const std::vector<std::uint8_t>& glb, const BakeOptions& baked, const PartHeader& whole,
+              const std::string& name)
+      : scene(readScene(glb, name)), plan(makePlanWithin(scene, baked, whole.texels, name)) {
+    const bool sameSize = plan.tallies.lightEntries == whole.lightEntries && plan.tallies.texels == whole.texels;
+    if (layoutHash(plan) == whole.identity.layout && sameSize) return;
+    const std::string& build = whole.makers.begin()->build;
+    throw Error(ExitCode::mergeRefused,
+                build == buildName() ? altered(name)
+                                     : name + " was laid out by " + build + ", and this program, " + buildName() +
+                                           ", lays the scene out otherwise: merge with that one, or bake again");
   }
-  const Baked baked = resolveBake(scene, plan, o, whole.identity.emittedFlux, whole.ledger, tallies);
-  nlohmann::json report = makeReport({o, scene, plan, whole, &baked});
-  writeDlm(*options.output, scene, baked.uv, baked.maps, provenanceOf(report), options.format);
+
+ private:
+  static std::string altered(const std::string& name) {
+    return name + " was altered: its tallies are not of its scene and settings; bake it again";
+  }
+
+  /// Every chart has a side with texels in the tallies, so an honest layout has no more than those.
+  static BakePlan makePlanWithin(const Scene& scene, const BakeOptions& baked, std::uint64_t texels,
+                                 const std::string& name) {
+    try {
+      return makePlan(scene, baked, texels);
+    } catch (const Error&) {
+      throw Error(ExitCode::mergeRefused, altered(name));
+    }
+  }
+
+  static Scene readScene(const std::vector<std::uint8_t>& glb, const std::string& name) {
+    try {
+      return readGlb(glb, name + ": scene");
+    } catch (const InputError& error) {
+      throw Error(ExitCode::mergeRefused, error.what());
+    }
+  }
+};
+
+nlohmann::json writeMaps(const MergeOptions& options, BakeOptions baked, const MergedScene& merged,
+                         const PartHeader& whole, const Tallies& tallies) {
+  baked.format = options.format;
+  const Baked maps = resolveBake(merged.scene, merged.plan, baked, whole.identity.emittedFlux, whole.ledger, tallies);
+  nlohmann::json report = makeReport({baked, merged.scene, merged.plan, whole, &maps});
+  writeDlm(*options.output, merged.scene, maps.uv, maps.maps, provenanceOf(report), options.format);
   return report;
 }
 
@@ -127,8 +165,10 @@ nlohmann::json shortReport(const PartHeader& whole) {
 nlohmann::json merge(const MergeOptions& options) {
   const std::vector<fs::path> files = partFiles(options.inputs);
   checkOutput(options, files);
-  PartSet parts = joinParts(files, !options.kernel && !options.kernelWidth);
+  PartSet parts = joinParts(files, chosenMembers(options));
   PartHeader& whole = parts.whole;
+  const std::string name = files[0].string();
+  BakeOptions baked = optionsOf(whole, name);
   tellOf(whole, options, files[0].parent_path());
   ReadingRate rate((whole.tallyBytes() + whole.sceneBytes) * files.size());
   nlohmann::json report;
@@ -137,8 +177,9 @@ nlohmann::json merge(const MergeOptions& options) {
     report = shortReport(whole);
     report.erase("content_hash");
   } else {
-    chooseKernel(options, whole);
+    chooseKernel(options, baked, whole);
     checkMemory(whole, !toPart(options));
+    if (toPart(options)) checkPartOutput(*options.output, whole.photons);
     Tallies tallies(whole.lightEntries, whole.texels);
     const std::vector<std::uint8_t> glb = sumParts(parts, tallies, std::ref(rate));
     whole.content = tallies.contentHash();
@@ -146,7 +187,7 @@ nlohmann::json merge(const MergeOptions& options) {
       writePart(*options.output, whole, glb, tallies);
       report = shortReport(whole);
     } else {
-      report = writeMaps(options, whole, glb, tallies);
+      report = writeMaps(options, baked, MergedScene(glb, baked, whole, name), whole, tallies);
     }
   }
   report["parts"] = files.size();

@@ -12,8 +12,10 @@ namespace fs = std::filesystem;
 
 void addFolder(const fs::path& folder, std::vector<fs::path>& files) {
   std::vector<fs::path> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".part" && !entry.is_directory()) found.push_back(entry.path());
+  std::error_code error, none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".part" && !entry.is_directory(none)) found.push_back(entry.path());
+  if (error) throw InputError("cannot read " + folder.string() + ": " + error.message());
   if (found.empty()) throw InputError(folder.string() + " holds no .part files");
   std::sort(found.begin(), found.end());
   files.insert(files.end(), found.begin(), found.end());
@@ -27,16 +29,26 @@ void addList(const fs::path& list, std::vector<fs::path>& files) {
   std::istringstream lines(std::string(bytes.begin(), bytes.end()));
   for (std::string line; std::getline(lines, line);) {
     if (line.ends_with('\r')) line.pop_back();
+    if (std::any_of(line.begin(), line.end(), [](unsigned char c) { return c < 32; })) {
+      throw InputError(list.string() + " is not a list of paths, one a line");
+    }
     if (line.empty() || line.starts_with('#')) continue;
     if (line.starts_with('@')) throw InputError(list.string() + ": a list may not name a list: " + line);
-    addInput((list.parent_path() / line).string(), files);
+    try {
+      addInput((list.parent_path() / line).string(), files);
+    } catch (const InputError& error) {
+      throw InputError(list.string() + ": " + error.what());
+    }
   }
 }
 
 void addInput(const std::string& input, std::vector<fs::path>& files) {
   if (input.starts_with('@')) return addList(input.substr(1), files);
-  if (!fs::exists(input)) throw InputError(input + ": no such file or folder");
-  if (!fs::is_directory(input)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(input, error);
+  if (status.type() == fs::file_type::not_found) throw InputError("'" + input + "': no such file or folder");
+  if (error) throw InputError("cannot read " + input + ": " + error.message());
+  if (status.type() != fs::file_type::directory) {
     files.emplace_back(input);
   } else if (holdsLightMaps(input)) {
     throw InputError(input + " is a folder of finished light maps, which cannot be merged; merge the .part files");

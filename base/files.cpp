@@ -34,6 +34,18 @@ void writeFileAtomically(const std::filesystem::path& path, const std::string& t
   file.commit();
 }
 
+void copyFileAtomically(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const InputFile source(from);
+  AtomicFile target(to);
+  std::vector<char> block(std::size_t{1} << 20);
+  std::uint64_t offset = 0;
+  while (const std::size_t n = source.read(offset, block.data(), block.size())) {
+    target.write(block.data(), n);
+    offset += n;
+  }
+  target.commit();
+}
+
 void checkWritable(const std::filesystem::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {

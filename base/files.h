@@ -18,6 +18,9 @@ std::vector<std::uint8_t> readFile(const std::filesystem::path& path, std::uint6
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void writeFileAtomically(const std::filesystem::path& path, const std::string& text);
 
+/// Bytes of one file as another, a block at a time.
+void copyFileAtomically(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Calls `fill(folder)` with a fresh temporary sibling folder, flushes all that it wrote, then puts it in the place of `path`
 /// in one step (renameat2 EXCHANGE when `path` exists; falls back to two renames where the file system lacks it). An existing
 /// `path` is only replaced when `mayReplace(path)` is true (else Error(failed)); the temporary is removed on any failure.

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "base/log.h"
 
 namespace lucarne {
@@ -50,6 +52,7 @@ void CheckpointFolder::open() {
   if (lock_ < 0) throwSystemError("write", lock, errno);
   // Network file systems without locks say something else than EWOULDBLOCK; there the user has to take care.
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(std::exchange(lock_, -1));  // the folder is not ours
     throw Error(ExitCode::failed,
                 "another bake is writing to " + folder_.string() + "; wait for it, or name another output");
   }
@@ -81,8 +84,10 @@ std::optional<PartHeader> CheckpointFolder::load(
       check(part.header(), file.string());
       addPart(part, tallies);
       return part.header();
-    } catch (const InputError& error) {
-      logWarning(std::string(error.what()) + "; going back to the state before it");
+    } catch (const PartError& error) {
+      // Its mend, after the semicolon, is for parts that can be had again.
+      const std::string what = error.what();
+      logWarning(what.substr(0, what.find(';')) + "; going back to the state before it");
       tallies.clear();
     }
   }
@@ -114,8 +119,14 @@ void CheckpointFolder::publish(const fs::path& target) {
   const std::vector<fs::path> found = states();
   LUCARNE_CHECK_EQ(found.empty(), false);
   const fs::path place = resolveTarget(target);
-  if (::rename(found.front().c_str(), place.c_str()) != 0) throwSystemError("write", target, errno);
-  syncToDisk(place.parent_path());
+  if (::rename(found.front().c_str(), place.c_str()) == 0) {
+    syncToDisk(place.parent_path());
+  } else if (errno == EXDEV) {  // the target is a link to another disk
+    copyFileAtomically(found.front(), target);
+    fs::remove(found.front());
+  } else {
+    throwSystemError("write", target, errno);
+  }
 }
 
 void CheckpointFolder::remove() {

@@ -71,7 +71,8 @@ bool operator==(const IndexSet& a, const IndexSet& b) {
 IndexRange shareOf(std::uint64_t photons, std::uint64_t k, std::uint64_t n) {
   LUCARNE_CHECK_LE(std::uint64_t{1}, k);
   LUCARNE_CHECK_LE(k, n);
-  const auto cut = [&](std::uint64_t i) { return static_cast<std::uint64_t>(static_cast<Int128>(photons) * i / n); };
+  __extension__ typedef unsigned __int128 Wide;  // holds any product of two numbers of 64 bits
+  const auto cut = [&](std::uint64_t i) { return static_cast<std::uint64_t>(Wide{photons} * i / n); };
   return {cut(k - 1), cut(k)};
 }
 

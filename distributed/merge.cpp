@@ -20,17 +20,21 @@ auto refusing(F&& f) {
   }
 }
 
-/// The first of the files before `last` that holds some of the same photons.
-const fs::path& holderOf(const IndexSet& photons, const std::vector<fs::path>& files, std::size_t last) {
-  for (std::size_t i = 0; i < last; ++i)
-    if (!PartReader(files[i]).header().photons.common(photons).empty()) return files[i];
-  return files[0];
+/// Refuses photons that the last of some files shares with an earlier one, which is looked for.
+[[noreturn]] void refuseTwice(const PartHeader& part, const std::vector<fs::path>& files, std::size_t last) {
+  for (std::size_t i = 0; i < last; ++i) {
+    const IndexSet common = PartReader(files[i]).header().photons.common(part.photons);
+    if (common.empty()) continue;
+    refuse(files[i].string() + " and " + files[last].string() + " both hold photons " + toText(common) +
+           "; merge each part once");
+  }
+  refuse(files[last].string() + " holds photons that another part holds, too; merge each part once");
 }
 
 void checkAgainst(const PartHeader& whole, const PartHeader& part, const std::vector<fs::path>& files, std::size_t i,
-                  bool withResolve) {
+                  const std::set<std::string>& chosen) {
   const std::string both = files[0].string() + " and " + files[i].string();
-  if (const std::string what = difference(whole.identity, part.identity, withResolve); !what.empty()) {
+  if (const std::string what = difference(whole.identity, part.identity, chosen); !what.empty()) {
     const bool layout = what.starts_with("layout") || what.starts_with("emitted");
     refuse(both + " differ in " + what + "; " +
            (layout ? "they are of different versions of Lucarne (" + whole.makers.begin()->build + " and " +
@@ -40,11 +44,7 @@ void checkAgainst(const PartHeader& whole, const PartHeader& part, const std::ve
   if (whole.sceneBytes != part.sceneBytes || whole.lightEntries != part.lightEntries || whole.texels != part.texels) {
     refuse(both + " differ in size of their tallies although they are of one layout; one of them was altered");
   }
-  const IndexSet common = whole.photons.common(part.photons);
-  if (!common.empty()) {
-    refuse(holderOf(common, files, i).string() + " and " + files[i].string() + " both hold photons " + toText(common) +
-           "; merge each part once");
-  }
+  if (!whole.photons.common(part.photons).empty()) refuseTwice(part, files, i);
 }
 
 /// The part read again must be the one whose header was joined.
@@ -69,7 +69,7 @@ void forParts(const PartSet& parts, const std::function<void(std::uint64_t)>& pr
 
 }  // namespace
 
-PartSet joinParts(const std::vector<fs::path>& files, bool withResolve) {
+PartSet joinParts(const std::vector<fs::path>& files, const std::set<std::string>& chosen) {
   if (files.empty()) throw UsageError("no parts to merge; name files, folders that hold .part files, or @LIST");
   PartSet parts;
   parts.files = files;
@@ -80,9 +80,13 @@ PartSet joinParts(const std::vector<fs::path>& files, bool withResolve) {
       parts.whole = header;
       continue;
     }
-    checkAgainst(parts.whole, header, files, i, withResolve);
+    checkAgainst(parts.whole, header, files, i, chosen);
     parts.whole.add(header);
-    checkTalliesFit(parts.whole.ledger.incident);
+    try {
+      checkTalliesFit(parts.whole.ledger.incident);
+    } catch (const Error& error) {
+      throw Error(error.code(), "with " + files[i].string() + ", " + error.what());
+    }
   }
   return parts;
 }

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "distributed/part_file.h"
@@ -17,10 +19,10 @@ struct PartSet {
 };
 
 /// Reads the headers. Throws Error(mergeRefused) naming the two files and what differs: parts of another scene, other
-/// settings (the kernel only if `withResolve`), another layout, photons that both hold; or the one file that is cut
-/// short or no part; or the one whose addition would make the tallies overflow. InputError for files that cannot be
-/// read.
-PartSet joinParts(const std::vector<std::filesystem::path>& files, bool withResolve);
+/// settings (of the kernel only what is not among `chosen`), another layout, photons that both hold; or the one file
+/// that is cut short or no part; Error(outOfResource) the one whose addition could make the tallies overflow.
+/// InputError for files that cannot be read.
+PartSet joinParts(const std::vector<std::filesystem::path>& files, const std::set<std::string>& chosen = {});
 
 /// Adds the tallies of all parts (zero before) and returns the scene, which is kept of the first alone. `progress` is
 /// called after each part with the bytes read so far. Error(mergeRefused) for a part that turns out altered.

@@ -44,8 +44,8 @@ class PartReader {
   ExrRows rows_;
 };
 
-/// Adds the tallies of a part; both must be of one size. Throws Error(outOfResource) where a sum would pass 63 bits and
-/// PartError for a negative tally. What was added stays added. `scene`, where given, receives the part's scene.
+/// Adds the tallies of a part. Throws Error(outOfResource) where a sum would pass 63 bits, and PartError for a negative
+/// tally or when the two are of different sizes. What was added stays added. `scene`, where given, receives the part's scene.
 void addPart(const PartReader& part, Tallies& tallies, std::vector<std::uint8_t>* scene = nullptr);
 
 /// True for a file that begins as a part does, whatever follows.

@@ -104,12 +104,15 @@ void PartHeader::add(const PartHeader& other) {
   microseconds += other.microseconds;
 }
 
-std::string difference(const BakeIdentity& a, const BakeIdentity& b, bool withResolve) {
+std::string difference(const BakeIdentity& a, const BakeIdentity& b, const std::set<std::string>& chosen) {
   if (a.scene != b.scene) return "scene: " + a.scene.hex().substr(0, 8) + " and " + b.scene.hex().substr(0, 8);
   if (const std::string member = differingMember(a.settings, b.settings); !member.empty()) return member;
-  if (withResolve) {
-    if (const std::string member = differingMember(a.resolve, b.resolve); !member.empty()) return member;
+  json resolveA = a.resolve, resolveB = b.resolve;
+  for (const std::string& member : chosen) {
+    resolveA.erase(member);
+    resolveB.erase(member);
   }
+  if (const std::string member = differingMember(resolveA, resolveB); !member.empty()) return member;
   if (a.layout != b.layout) return "layout: " + a.layout.hex().substr(0, 8) + " and " + b.layout.hex().substr(0, 8);
   if (a.emittedFlux != b.emittedFlux) {
     return "emitted_flux_lm: " + json(a.emittedFlux).dump() + " and " + json(b.emittedFlux).dump();
@@ -160,6 +163,9 @@ PartHeader partHeaderFrom(const JsonView& v) {
   h.identity.resolve = flatObject(v.at("resolve"));
   h.identity.layout = hashAt(v.at("layout_hash"));
   h.identity.emittedFlux = v.at("emitted_flux_lm").number();
+  constexpr double kMostFlux = 1e36;  // beyond it light maps could not say their numbers in floats
+  if (!(h.identity.emittedFlux >= 0 && h.identity.emittedFlux <= kMostFlux))
+    v.at("emitted_flux_lm").refuse("is no flux");
   if (hashAt(v.at("settings_hash")) != h.identity.settingsHash()) v.at("settings").refuse("was altered");
   h.makers = makersFrom(v.at("makers"));
   const JsonView planned = v.at("planned");

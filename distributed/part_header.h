@@ -1,6 +1,7 @@
 // What a part says of itself: of which bake it is, how it was made, and what is in it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -68,9 +69,12 @@ struct PartHeader {
   std::uint64_t tallyBytes() const;
 };
 
+/// Members of `resolve`, all of them.
+inline constexpr std::array kResolveMembers = {"kernel", "kernel_width"};
+
 /// Where two identities differ, in words that fit into "… differ in …": "seed: 0 and 1". Empty where they agree.
-/// `withResolve`: the kernel counts, too.
-std::string difference(const BakeIdentity& a, const BakeIdentity& b, bool withResolve);
+/// Members of `resolve` that are among `chosen` do not count.
+std::string difference(const BakeIdentity& a, const BakeIdentity& b, const std::set<std::string>& chosen = {});
 
 /// [[begin, end], …]
 nlohmann::json toJson(const IndexSet& set);

@@ -117,6 +117,7 @@ class PartStream {
 };
 
 std::string headerText(const InputFile& file) {
+  if (file.size() == 0) throw PartError(file.path().string() + " is empty");
   std::uint64_t needed = kFirstLook;
   std::string text;
   while (needed > 0 && text.empty()) {
@@ -196,8 +197,10 @@ class TallyAdder {
 }  // namespace
 
 void addPart(const PartReader& part, Tallies& tallies, std::vector<std::uint8_t>* scene) {
-  LUCARNE_CHECK_EQ(tallies.light().size(), part.header().lightEntries * kLightChannels);
-  LUCARNE_CHECK_EQ(tallies.statistics().size(), part.header().texels * kStatisticsChannels);
+  if (tallies.light().size() != part.header().lightEntries * kLightChannels ||
+      tallies.statistics().size() != part.header().texels * kStatisticsChannels) {
+    throw PartError(part.path().string() + " was altered: its tallies are of another size than its layout");
+  }
   TallyAdder adder(tallies);
   PartReader::Sink sink;
   sink.tallies = [&](PartLayer layer, std::uint64_t first, std::span<const std::int64_t> values) {

@@ -63,7 +63,7 @@ TEST_F(PartsOfOthers, WhoseRaysDifferMergeWithAWarningThatSaysWhatItMeans) {
                                                    m.processor = "Other CPU";
                                                    m.probeRays.lo ^= 1;
                                                  });
-  const PartSet parts = joinParts({a, b}, true);
+  const PartSet parts = joinParts({a, b});
   const std::string warning = makersWarning(parts.whole.makers);
   EXPECT_THAT(warning, testing::HasSubstr("Other CPU"));
   EXPECT_THAT(warning, testing::HasSubstr("no single machine would give the same bits"));
@@ -75,7 +75,7 @@ TEST_F(PartsOfOthers, WhoseRaysDifferMergeWithAWarningThatSaysWhatItMeans) {
 
 TEST_F(PartsOfOthers, WhoseRaysAgreeMergeWithoutAWord) {
   const fs::path a = bakePart(1, [](Maker&) {}), b = bakePart(2, [](Maker&m) { m.processor = "Other CPU"; });
-  EXPECT_EQ(makersWarning(joinParts({a, b}, true).whole.makers), "");
+  EXPECT_EQ(makersWarning(joinParts({a, b}).whole.makers), "");
 }
 
 /// What bake() refuses when a state of a changed maker is all there is to go on with.

@@ -69,7 +69,14 @@ TEST_F(ForgedParts, SettingsThatNoBakeHasAreRefused) {
 
 TEST_F(ForgedParts, LayoutsOfOtherVersionsAreRefused) {
   forge([](PartHeader& h, std::vector<std::uint8_t>&, Tallies&) { h.identity.layout.lo ^= 1; });
-  expectRefused("merge x.part -o out.dlm --quiet", 4, {"laid out"});
+  expectRefused("merge x.part -o out.dlm --quiet", 4, {"x.part was altered"});
+  forge([](PartHeader& h, std::vector<std::uint8_t>&, Tallies&) {
+    h.identity.layout.lo ^= 1;
+    Maker other = *h.makers.begin();
+    other.build = "lucarne 9.9";
+    h.makers = {other};
+  });
+  expectRefused("merge x.part -o out.dlm --quiet", 4, {"x.part was laid out by lucarne 9.9"});
   expectRefused("merge x.part b.part -o out.dlm --quiet", 4, {"x.part and b.part differ in layout"});
 }
 
