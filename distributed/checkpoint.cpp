@@ -32,6 +32,13 @@ std::optional<std::uint64_t> numberOf(const fs::path& file) {
   return plain ? std::optional(std::stoull(digits)) : std::nullopt;
 }
 
+/// True while the open file is the one that has this name.
+bool isFile(int descriptor, const fs::path& path) {
+  struct stat here {}, there {};
+  return descriptor >= 0 && ::fstat(descriptor, &here) == 0 && ::stat(path.c_str(), &there) == 0 &&
+         here.st_dev == there.st_dev && here.st_ino == there.st_ino;
+}
+
 std::string stateName(std::uint64_t number) {
   const std::string digits = std::to_string(number);
   return "state-" + std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits + ".part";
@@ -46,16 +53,21 @@ CheckpointFolder::~CheckpointFolder() {
 }
 
 void CheckpointFolder::open() {
-  if (::mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST) throwSystemError("write", folder_, errno);
   const fs::path lock = folder_ / kLock;
-  lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (lock_ < 0) throwSystemError("write", lock, errno);
-  // Network file systems without locks say something else than EWOULDBLOCK; there the user has to take care.
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(std::exchange(lock_, -1));  // the folder is not ours
-    throw Error(ExitCode::failed,
-                "another bake is writing to " + folder_.string() + "; wait for it, or name another output");
-  }
+  // Again when a bake that ended removed the folder between two of our steps: a lock that nobody can find locks nothing.
+  do {
+    if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+    if (::mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST) throwSystemError("write", folder_, errno);
+    lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_ < 0 && errno == ENOENT) continue;
+    if (lock_ < 0) throwSystemError("write", lock, errno);
+    // Network file systems without locks say something else than EWOULDBLOCK; there the user has to take care.
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(std::exchange(lock_, -1));  // the folder is not ours
+      throw Error(ExitCode::failed,
+                  "another bake is writing to " + folder_.string() + "; wait for it, or name another output");
+    }
+  } while (!isFile(lock_, lock));
   removeLeftovers();
 }
 
