@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "tests/tracer/gltf_files.h"
 #include "tracer/scene/gltf_reader.h"
 #include "tracer/scene/gltf_writer.h"
 #include "tracer/scene/scene_summary.h"
@@ -17,16 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kAssets = LUCARNE_SOURCE_DIR "/../shared/assets";
-
-std::set<fs::path> gltfFilesBelow(const fs::path& folder) {
-  std::set<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".glb" || extension == ".gltf") files.insert(entry.path());
-  }
-  return files;
-}
+using test::gltfFilesBelow;
+using test::kAssets;
 
 TEST(GltfAssets, MalformedFilesAreRefusedOrRead) {
   if (!fs::exists(kAssets / "malformed")) GTEST_SKIP() << "no folder " << kAssets / "malformed";

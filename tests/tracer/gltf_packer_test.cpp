@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "tests/base/temp_folder.h"
+#include "tests/tracer/gltf_files.h"
 #include "tests/tracer/gltf_maker.h"
 
 namespace lucarne {
@@ -16,16 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kAssets = LUCARNE_SOURCE_DIR "/../shared/assets";
-
-std::set<fs::path> gltfFilesBelow(const fs::path& folder) {
-  std::set<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".glb" || extension == ".gltf") files.insert(entry.path());
-  }
-  return files;
-}
+using test::gltfFilesBelow;
+using test::kAssets;
 
 bool sameUse(const TextureUse& a, const TextureUse& b) {
   return a.texture == b.texture && a.uvSet == b.uvSet && a.rowU == b.rowU && a.rowV == b.rowV && a.offset == b.offset;
