@@ -42,10 +42,17 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
+template <class T>
+struct Vec4 {
+  T x{}, y{}, z{}, w{};
+  friend constexpr bool operator==(const Vec4&, const Vec4&) = default;
+};
+
 using Vec2f = Vec2<float>;
 using Vec2d = Vec2<double>;
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
+using Vec4f = Vec4<float>;
 using Rgb = Vec3<float>;  // linear Rec. 709
 using Rgbd = Vec3<double>;
 

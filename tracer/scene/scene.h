@@ -49,20 +49,39 @@ struct TextureUse {
   explicit operator bool() const { return texture != kNone; }
 };
 
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+/// glTF metallic-roughness with the extensions that the tracer models. Values are in range (the reader clamps).
 struct Material {
   std::string name;
   Rgb baseColor{1.f};           // linear factor
-  TextureUse baseColorTexture;  // sRGB
+  TextureUse baseColorTexture;  // sRGB; its alpha multiplies `alpha`
+  AlphaMode alphaMode = AlphaMode::opaque;
+  float alpha = 1;           // baseColorFactor[3]
+  float alphaCutoff = 0.5f;  // of masks: below it there is no surface
+  bool unlit = false;        // KHR_materials_unlit: takes no light and gives none
   float metallic = 1, roughness = 1;
   TextureUse metallicRoughnessTexture;  // linear; g = roughness, b = metallic
   Rgb emissive{0.f};                    // cd/m², emissiveFactor · KHR_materials_emissive_strength
   TextureUse emissiveTexture;           // sRGB, multiplies `emissive`
+  TextureUse normalTexture;             // linear; tangent space, +y up
+  float normalScale = 1;                // of its x and y
   float specular = 1;                   // KHR_materials_specular: specularFactor
+  TextureUse specularTexture;           //   its alpha multiplies `specular`
   Rgb specularColor{1.f};               //   and specularColorFactor
-  float ior = 1.5f;
+  TextureUse specularColorTexture;      //   sRGB
+  float ior = 1.5f;                     // KHR_materials_ior; 0 stands for an infinite index
+  float transmission = 0;               // KHR_materials_transmission
+  TextureUse transmissionTexture;       //   linear; its red multiplies `transmission`
+  bool solid = false;         // KHR_materials_volume, thicknessFactor > 0: bounds a refracting volume; else a thin wall
+  Rgb attenuationColor{1.f};  //   what is left of white light after attenuationDistance
+  double attenuationDistance = 0;  //   metres; 0: a clear volume
   bool doubleSided = false;
 
-  bool emits() const { return maxComponent(emissive) > 0; }
+  bool emits() const { return maxComponent(emissive) > 0 && !unlit; }
+  bool transmits() const { return transmission > 0 && !unlit; }
+  /// False where alpha is 1 everywhere or ignored.
+  bool hasAlpha() const { return alphaMode != AlphaMode::opaque && !unlit; }
 };
 
 struct Triangle {
@@ -106,6 +125,9 @@ struct Scene {
   // TEXCOORD_1 of the file: the scene's own unwrapping for light maps or, with chartOfTriangle, the place in the
   // irradiance atlas. The same as uv1 unless a material takes another set for its second; empty means none in file.
   std::vector<Vec2f> atlasUv;
+  // Tangents of normal maps, by vertex: xyz unit in the plane of the normal, w = ±1 the sign of the bitangent
+  // cross(normal, xyz) · w. Empty where no material has a normal map.
+  std::vector<Vec4f> tangents;
   std::vector<std::uint32_t> sourceVertex;  // index into the source primitive's accessors
 
   // Triangles, counter-clockwise from the front (mirroring transforms already undone). Degenerate ones are kept, so
