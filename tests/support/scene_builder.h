@@ -9,6 +9,7 @@
 
 #include "tracer/scene/local_frame.h"
 #include "tracer/scene/scene.h"
+#include "tracer/scene/scene_cleanup.h"
 
 namespace lucarne::test {
 
@@ -99,6 +100,7 @@ class SceneBuilder {
     const auto count = static_cast<std::uint32_t>(scene.positions.size());
     for (std::uint32_t i = 0; i < count; ++i) scene.sourceVertex.push_back(i);
     scene.instances.push_back({0, 0, 0, 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, count});
+    markSkipped(scene);
     return scene;
   }
 

@@ -9,6 +9,7 @@
 
 #include "tracer/scene/glb_container.h"
 #include "tracer/scene/gltf_reader.h"
+#include "tracer/scene/png_bytes.h"
 
 namespace lucarne::test {
 
@@ -98,6 +99,22 @@ inline GltfMaker squareMaker() {
 }
 
 inline Json& squarePrimitive(GltfMaker& maker) { return maker.json["meshes"][0]["primitives"][0]; }
+
+/// The square of squareMaker() with one material.
+inline GltfMaker squareWith(const Json& material) {
+  GltfMaker maker = squareMaker();
+  maker.json["materials"] = Json::array({material});
+  squarePrimitive(maker)["material"] = 0;
+  return maker;
+}
+
+/// Adds a 2 × 1 image, "colours": red then green, with a texture, and returns the document.
+inline GltfMaker withTexture(GltfMaker maker) {
+  const std::vector<std::uint8_t> png = storedPng({2, 1, {255, 0, 0, 255, 0, 255, 0, 255}});
+  maker.json["images"].push_back({{"uri", "data:image/png;base64," + base64(png)}, {"name", "colours"}});
+  maker.json["textures"].push_back({{"source", 0}});
+  return maker;
+}
 
 /// What the reader says against a document; empty when it takes it.
 inline std::string complaint(const GltfMaker& maker) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/tracer/gltf_maker.h"
-#include "tracer/scene/png_bytes.h"
 
 namespace lucarne {
 namespace {
@@ -10,24 +9,12 @@ namespace {
 using test::GltfMaker;
 using test::squareMaker;
 using test::squarePrimitive;
+using test::squareWith;
+using test::withTexture;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-GltfMaker squareWith(const Json& material) {
-  GltfMaker maker = squareMaker();
-  maker.json["materials"] = Json::array({material});
-  squarePrimitive(maker)["material"] = 0;
-  return maker;
-}
-
-/// Adds a 2 × 1 image, red then green, with a texture, and returns the document.
-GltfMaker withTexture(GltfMaker maker) {
-  const std::vector<std::uint8_t> png = storedPng({2, 1, {255, 0, 0, 255, 0, 255, 0, 255}});
-  maker.json["images"].push_back({{"uri", "data:image/png;base64," + test::base64(png)}, {"name", "colours"}});
-  maker.json["textures"].push_back({{"source", 0}});
-  return maker;
-}
 
 TEST(GltfMaterials, DefaultsAreThoseOfTheSpecification) {
   const Scene scene = squareWith(Json::object()).read();
@@ -40,6 +27,11 @@ TEST(GltfMaterials, DefaultsAreThoseOfTheSpecification) {
   EXPECT_EQ(m.specularColor, Rgb{1.f});
   EXPECT_EQ(m.ior, 1.5f);
   EXPECT_FALSE(m.doubleSided);
+  EXPECT_EQ(m.alphaMode, AlphaMode::opaque);
+  EXPECT_EQ(m.alpha, 1);
+  EXPECT_EQ(m.alphaCutoff, 0.5f);
+  EXPECT_FALSE(m.unlit || m.transmits() || m.solid || m.normalTexture);
+  EXPECT_TRUE(scene.tangents.empty());
   EXPECT_EQ(scene.materials.size(), 1u);
 }
 
@@ -59,6 +51,7 @@ TEST(GltfMaterials, FactorsAndExtensionsAreRead) {
   EXPECT_EQ(m.name, "m");
   EXPECT_TRUE(m.doubleSided);
   EXPECT_EQ(m.baseColor, (Rgb{0.1f, 0.2f, 0.3f}));
+  EXPECT_EQ(m.alpha, 0.4f);
   EXPECT_EQ(m.metallic, 0.5f);
   EXPECT_EQ(m.roughness, 0.6f);
   EXPECT_EQ(m.emissive, (Rgb{200, 50, 0}));
@@ -158,30 +151,36 @@ TEST(GltfMaterials, SecondTextureSetIsTheOneThatTheMaterialUses) {
 
 TEST(GltfMaterials, WhatIsNotModelledIsListedOnceInWords) {
   GltfMaker maker = squareWith(
-      {{"alphaMode", "BLEND"}, {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
-  maker.json["materials"].push_back({{"alphaMode", "BLEND"}, {"name", "used by nothing"}});
+      {{"occlusionTexture", {{"index", 0}}},
+       {"extensions", {{"KHR_materials_dispersion", {{"dispersion", 1}}}, {"KHR_materials_unlit", Json::object()}}}});
+  maker = withTexture(maker);
+  maker.json["materials"].push_back({{"extensions", {{"KHR_materials_sheen", Json::object()}}}});  // used by nothing
   maker.json["materials"].push_back(
-      {{"alphaMode", "MASK"}, {"extensions", {{"KHR_materials_transmission", Json::object()}}}});
+      {{"extensions",
+        {{"KHR_materials_dispersion", Json::object()}, {"KHR_materials_volume", {{"thicknessFactor", 1}}}}}});
   Json second = squarePrimitive(maker);
   second["material"] = 2;
   maker.json["meshes"][0]["primitives"].push_back(second);
-  maker.json["extensionsUsed"] = {"KHR_materials_transmission", "KHR_materials_sheen", "ACME_wobble"};
-  EXPECT_THAT(maker.read().leftOut, ::testing::ElementsAre("alpha blending of 1 material: treated as opaque",
-                                                           "alpha masks of 1 material: treated as opaque",
-                                                           "transmission of 2 materials: treated as opaque",
-                                                           "extension ACME_wobble: ignored"));
+  maker.json["extensionsUsed"] = {"KHR_materials_dispersion", "KHR_materials_unlit", "KHR_materials_volume",
+                                  "KHR_materials_sheen", "ACME_wobble"};
+  EXPECT_THAT(maker.read().leftOut, ElementsAre("occlusion maps of 1 material: ignored, light is computed instead",
+                                                "volume without transmission of 1 material: ignored",
+                                                "2 duplicate triangles: skipped", "dispersion of 2 materials: ignored",
+                                                "unlit shading of 1 material: takes no light and gives none",
+                                                "extension ACME_wobble: ignored"));
 }
 
 TEST(GltfMaterials, SpecularGlossinessBecomesDiffuseColourAndReflectance) {
   GltfMaker maker = squareWith({{"extensions",
                                  {{"KHR_materials_pbrSpecularGlossiness",
-                                   {{"diffuseFactor", {0.5, 0.25, 0, 1}},
+                                   {{"diffuseFactor", {0.5, 0.25, 0, 0.125}},
                                     {"specularFactor", {0.04, 0.04, 0.08}},
                                     {"glossinessFactor", 0.75}}}}}});
   maker.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
   const Scene scene = maker.read();
   EXPECT_EQ(scene.materials[0].baseColor, (Rgb{0.5f, 0.25f, 0}));
   EXPECT_EQ(scene.materials[0].metallic, 0);
+  EXPECT_EQ(scene.materials[0].alpha, 0.125f);
   EXPECT_EQ(scene.materials[0].roughness, 0.25f);
   EXPECT_NEAR(scene.materials[0].specularColor.z, 2, 1e-6);
   EXPECT_THAT(scene.leftOut, Contains(HasSubstr("specular-glossiness of 1 material")));

@@ -12,7 +12,7 @@ Image whiteImage() { return {1, 1, {255, 255, 255, 255}}; }
 std::vector<std::uint8_t> usedImages(const GltfSource& source, const GltfMaterials& materials) {
   std::vector<std::uint8_t> used(source.list("images").size(), 0);
   for (const Material& m : materials.materials) {
-    for (const TextureUse* use : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.emissiveTexture}) {
+    for (const TextureUse* use : textureUses(m)) {
       if (!*use) continue;
       const std::uint32_t image = materials.textures[use->texture].image;
       if (image != kNone) used[image] = 1;
@@ -30,10 +30,20 @@ std::string imageName(const GltfSource& source, std::uint32_t image) {
   return name;
 }
 
+void dropNormalMaps(std::uint32_t image, const std::string& name, GltfMaterials& materials,
+                    std::vector<std::string>& leftOut) {
+  bool dropped = false;
+  for (Material& m : materials.materials) {
+    if (!m.normalTexture || materials.textures[m.normalTexture.texture].image != image) continue;
+    m.normalTexture = {};
+    dropped = true;
+  }
+  if (dropped) leftOut.push_back("normal maps of image " + name + ": ignored");
+}
+
 }  // namespace
 
-std::vector<Image> readImages(const GltfSource& source, const GltfMaterials& materials,
-                              std::vector<std::string>& leftOut) {
+std::vector<Image> readImages(const GltfSource& source, GltfMaterials& materials, std::vector<std::string>& leftOut) {
   const std::vector<std::uint8_t> used = usedImages(source, materials);
   std::vector<Image> images(used.size(), whiteImage());
   std::uint64_t total = 0;
@@ -43,6 +53,7 @@ std::vector<Image> readImages(const GltfSource& source, const GltfMaterials& mat
     const std::span<const std::uint8_t> bytes = source.imageBytes(i);
     if (bytes.empty()) {
       leftOut.push_back("image " + name + ": cannot be found, white stands in");
+      dropNormalMaps(i, name, materials, leftOut);
       continue;
     }
     try {
@@ -52,6 +63,7 @@ std::vector<Image> readImages(const GltfSource& source, const GltfMaterials& mat
       images[i] = {decoded.width, decoded.height, std::move(decoded.rgba)};
     } catch (const InputError&) {
       leftOut.push_back("image " + name + ": is not a PNG or JPEG that can be decoded, white stands in");
+      dropNormalMaps(i, name, materials, leftOut);
     }
   }
   return images;

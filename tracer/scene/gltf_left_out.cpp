@@ -23,25 +23,30 @@ std::vector<const Json*> usedMaterials(const GltfSource& source, const Scene& sc
   return materials;
 }
 
+bool isVolumeWithoutTransmission(const Json* material) {
+  const Json* extensions = findMember(*material, "extensions");
+  if (extensions == nullptr || !extensions->contains("KHR_materials_volume")) return false;
+  const Json* transmission = findMember(*extensions, "KHR_materials_transmission");
+  const Json* factor = transmission == nullptr ? nullptr : findMember(*transmission, "transmissionFactor");
+  return factor == nullptr || !(factor->get<double>() > 0);
+}
+
 void listMaterials(const std::vector<const Json*>& materials, std::vector<std::string>& out) {
   const auto add = [&](const std::string& what, const std::string& fate, const auto& has) {
     const auto count = static_cast<std::size_t>(std::count_if(materials.begin(), materials.end(), has));
     if (count > 0) out.push_back(what + " of " + counted(count, "material", "materials") + ": " + fate);
   };
-  const auto alphaMode = [](const char* mode) {
-    return [mode](const Json* m) { return m->contains("alphaMode") && (*m)["alphaMode"] == mode; };
-  };
   const auto member = [](const char* key) { return [key](const Json* m) { return m->contains(key); }; };
-  const auto specularTexture = [](const Json* m) {
-    const Json* extensions = findMember(*m, "extensions");
-    const Json* specular = extensions == nullptr ? nullptr : findMember(*extensions, "KHR_materials_specular");
-    return specular != nullptr && (specular->contains("specularTexture") || specular->contains("specularColorTexture"));
-  };
-  add("alpha blending", "treated as opaque", alphaMode("BLEND"));
-  add("alpha masks", "treated as opaque", alphaMode("MASK"));
-  add("normal maps", "ignored", member("normalTexture"));
   add("occlusion maps", "ignored, light is computed instead", member("occlusionTexture"));
-  add("specular textures", "ignored, the factors are used", specularTexture);
+  add("volume without transmission", "ignored", isVolumeWithoutTransmission);
+}
+
+void listTriangles(const Scene& scene, std::vector<std::string>& out) {
+  const auto add = [&](std::size_t count, const std::string& one, const std::string& many) {
+    if (count > 0) out.push_back(counted(count, one, many) + ": skipped");
+  };
+  add(scene.degenerateTriangles, "triangle without area", "triangles without area");
+  add(scene.duplicateTriangles, "duplicate triangle", "duplicate triangles");
 }
 
 struct MeshCounts {
@@ -103,6 +108,7 @@ std::vector<std::string> listLeftOut(const GltfSource& source, const std::vector
   const std::vector<const Json*> materials = usedMaterials(source, scene);
   listMaterials(materials, out);
   listMeshes(countMeshes(source, nodes), out);
+  listTriangles(scene, out);
   listExtensions(source, materials, out);
   const std::size_t animations = source.list("animations").size();
   if (animations > 0) out.push_back(counted(animations, "animation", "animations") + ": the scene stands still");

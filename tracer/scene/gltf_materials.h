@@ -5,13 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tracer/scene/gltf_source.h"
-#include "tracer/scene/scene.h"
+#include "tracer/scene/gltf_textures.h"
 
 namespace lucarne {
-
-/// The TEXCOORD sets that Scene::uv0 and uv1 hold for the triangles of one material.
-using UvSlots = std::array<std::uint32_t, 2>;
 
 struct GltfMaterials {
   std::vector<Material> materials;  // one a JSON material, then the default material
@@ -19,12 +15,15 @@ struct GltfMaterials {
   std::vector<Texture> textures;    // one a JSON texture
 };
 
+/// Every texture use of a material, absent ones too.
+std::array<const TextureUse*, 7> textureUses(const Material& material);
+
 /// Factors outside their range are brought into it and `leftOut` says so; negative or infinite light is an InputError.
+/// A normal map whose texture has no image in the file is dropped.
 GltfMaterials readMaterials(const GltfSource& source, std::vector<std::string>& leftOut);
 
 /// Decodes the images that `materials` use; white, 1 × 1, for the others and for those that cannot be decoded, which
-/// `leftOut` names.
-std::vector<Image> readImages(const GltfSource& source, const GltfMaterials& materials,
-                              std::vector<std::string>& leftOut);
+/// `leftOut` names. White would be no normal map: materials lose theirs where its image cannot be decoded.
+std::vector<Image> readImages(const GltfSource& source, GltfMaterials& materials, std::vector<std::string>& leftOut);
 
 }  // namespace lucarne

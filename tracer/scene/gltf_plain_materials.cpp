@@ -23,22 +23,65 @@ Json textureJson(const TextureUse& use) {
   return info;
 }
 
+void putTexture(Json& object, const char* key, const TextureUse& use) {
+  if (use) object[key] = textureJson(use);
+}
+
+void putAlpha(const Material& m, Json& json) {
+  if (m.alphaMode == AlphaMode::opaque) return;
+  json["alphaMode"] = m.alphaMode == AlphaMode::mask ? "MASK" : "BLEND";
+  if (m.alphaMode == AlphaMode::mask) json["alphaCutoff"] = m.alphaCutoff;
+}
+
+void putTransmission(const Material& m, Json& extensions) {
+  if (m.transmission <= 0) return;
+  Json& transmission = extensions["KHR_materials_transmission"];
+  transmission["transmissionFactor"] = m.transmission;
+  putTexture(transmission, "transmissionTexture", m.transmissionTexture);
+  if (!m.solid) return;
+  Json& volume = extensions["KHR_materials_volume"];
+  volume["thicknessFactor"] = 1;
+  volume["attenuationColor"] = colorJson(m.attenuationColor);
+  if (m.attenuationDistance > 0) volume["attenuationDistance"] = m.attenuationDistance;
+}
+
+Json extensionsJson(const Material& m) {
+  Json extensions;
+  extensions["KHR_materials_ior"]["ior"] = m.ior;
+  Json& specular = extensions["KHR_materials_specular"];
+  specular = {{"specularFactor", m.specular}, {"specularColorFactor", colorJson(m.specularColor)}};
+  putTexture(specular, "specularTexture", m.specularTexture);
+  putTexture(specular, "specularColorTexture", m.specularColorTexture);
+  putTransmission(m, extensions);
+  if (m.unlit) extensions["KHR_materials_unlit"] = Json::object();
+  return extensions;
+}
+
 Json materialJson(const Material& m) {
   Json json = {{"doubleSided", m.doubleSided}};
   if (!m.name.empty()) json["name"] = m.name;
   Json& pbr = json["pbrMetallicRoughness"];
-  pbr["baseColorFactor"] = {m.baseColor.x, m.baseColor.y, m.baseColor.z, 1};
+  pbr["baseColorFactor"] = {m.baseColor.x, m.baseColor.y, m.baseColor.z, m.alpha};
   pbr["metallicFactor"] = m.metallic;
   pbr["roughnessFactor"] = m.roughness;
-  if (m.baseColorTexture) pbr["baseColorTexture"] = textureJson(m.baseColorTexture);
-  if (m.metallicRoughnessTexture) pbr["metallicRoughnessTexture"] = textureJson(m.metallicRoughnessTexture);
-  if (m.emits()) json["emissiveFactor"] = colorJson(m.emissive);
-  if (m.emissiveTexture) json["emissiveTexture"] = textureJson(m.emissiveTexture);
-  Json& extensions = json["extensions"];
-  extensions["KHR_materials_ior"]["ior"] = m.ior;
-  extensions["KHR_materials_specular"] = {{"specularFactor", m.specular},
-                                          {"specularColorFactor", colorJson(m.specularColor)}};
+  putTexture(pbr, "baseColorTexture", m.baseColorTexture);
+  putTexture(pbr, "metallicRoughnessTexture", m.metallicRoughnessTexture);
+  putAlpha(m, json);
+  if (maxComponent(m.emissive) > 0) json["emissiveFactor"] = colorJson(m.emissive);
+  putTexture(json, "emissiveTexture", m.emissiveTexture);
+  putTexture(json, "normalTexture", m.normalTexture);
+  if (m.normalTexture) json["normalTexture"]["scale"] = m.normalScale;
+  json["extensions"] = extensionsJson(m);
   return json;
+}
+
+void listExtensions(Json& json) {
+  json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_specular"};
+  const std::string text = json["materials"].dump();
+  for (const char* name :
+       {"KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_volume", "KHR_texture_transform"}) {
+    if (text.find(name) != std::string::npos) json["extensionsUsed"].push_back(name);
+  }
 }
 
 Json samplerJson(const Texture& t) {
@@ -49,7 +92,6 @@ Json samplerJson(const Texture& t) {
 }  // namespace
 
 void putMaterials(const Scene& scene, Json& json) {
-  json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_specular"};
   for (const Material& m : scene.materials) json["materials"].push_back(materialJson(m));
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     json["samplers"].push_back(samplerJson(scene.textures[i]));
@@ -59,9 +101,7 @@ void putMaterials(const Scene& scene, Json& json) {
   }
   for (std::size_t i = 0; i < scene.images.size(); ++i)
     json["images"].push_back({{"uri", "image" + std::to_string(i) + ".png"}});
-  if (json["materials"].dump().find("KHR_texture_transform") != std::string::npos) {
-    json["extensionsUsed"].push_back("KHR_texture_transform");
-  }
+  listExtensions(json);
 }
 
 }  // namespace lucarne

@@ -5,6 +5,7 @@
 #include "tracer/scene/gltf_lights.h"
 #include "tracer/scene/gltf_materials.h"
 #include "tracer/scene/local_frame.h"
+#include "tracer/scene/scene_cleanup.h"
 
 namespace lucarne {
 namespace {
@@ -28,8 +29,9 @@ Scene readScene(std::shared_ptr<const GltfSource> source) {
   if (uses.empty()) source->place().fail("has no triangles");
   scene.frame = localFrameOf(trianglesBox(*source, nodes, uses));
   GltfMaterials materials = readMaterials(*source, scene.leftOut);
+  scene.images = readImages(*source, materials, scene.leftOut);  // may drop normal maps, and so tangents
   readGeometry(*source, nodes, uses, materials, scene);
-  scene.images = readImages(*source, materials, scene.leftOut);
+  markSkipped(scene);
   scene.materials = std::move(materials.materials);
   scene.textures = std::move(materials.textures);
   dropUnusedDefault(scene);

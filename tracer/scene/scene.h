@@ -136,6 +136,11 @@ struct Scene {
   std::vector<Triangle> triangles;
   std::vector<std::uint8_t> smooth;
 
+  // By triangle: 1 = without area, or a duplicate of an earlier triangle, whatever its material: the same three corner
+  // positions with the same front. Light treats it as absent. Filled by scene_cleanup.h; empty means none is.
+  std::vector<std::uint8_t> skipped;
+  std::size_t degenerateTriangles = 0, duplicateTriangles = 0;  // of `skipped`, each triangle in one of them
+
   std::vector<Material> materials;  // at least one
   std::vector<Texture> textures;
   std::vector<Image> images;

@@ -75,7 +75,8 @@ Json summarize(const Scene& scene) {
   const auto doubleSided = [](const Material& m) { return m.doubleSided; };
   Json json;
   json["triangles"] = scene.triangles.size();
-  json["degenerate_triangles"] = countTriangles(scene, [&](auto t) { return scene.scaledNormal(t) == Vec3d{}; });
+  json["degenerate_triangles"] = scene.degenerateTriangles;
+  json["duplicate_triangles"] = scene.duplicateTriangles;
   json["smooth_triangles"] = countTriangles(scene, [&](auto t) { return scene.smooth[t] != 0; });
   json["double_sided_triangles"] = countTriangles(scene, [&](auto t) { return material(t).doubleSided; });
   json["emissive_triangles"] = countTriangles(scene, [&](auto t) { return material(t).emits(); });
