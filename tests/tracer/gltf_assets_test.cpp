@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "tests/tracer/gltf_files.h"
+#include "tracer/scene/gltf_packer.h"
 #include "tracer/scene/gltf_reader.h"
 #include "tracer/scene/gltf_writer.h"
 #include "tracer/scene/scene_summary.h"
@@ -20,6 +21,23 @@ namespace fs = std::filesystem;
 
 using test::gltfFilesBelow;
 using test::kAssets;
+
+bool hasNormalMap(const Scene& scene) {
+  return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                     [&](const Triangle& t) { return bool(scene.materials[t.material].normalTexture); });
+}
+
+/// Unit, in the plane of the normal, ±1, and there where a normal map is.
+void expectTangentFrames(const Scene& scene, const fs::path& file) {
+  ASSERT_EQ(scene.tangents.size(), hasNormalMap(scene) ? scene.positions.size() : 0) << file;
+  std::size_t bad = 0;
+  for (std::size_t v = 0; v < scene.tangents.size(); ++v) {
+    const Vec3f t{scene.tangents[v].x, scene.tangents[v].y, scene.tangents[v].z};
+    bad += !(std::fabs(length(t) - 1) < 1e-5f && std::fabs(dot(t, scene.normals[v])) < 1e-5f &&
+             std::fabs(scene.tangents[v].w) == 1);
+  }
+  EXPECT_EQ(bad, 0u) << file;
+}
 
 TEST(GltfAssets, MalformedFilesAreRefusedOrRead) {
   if (!fs::exists(kAssets / "malformed")) GTEST_SKIP() << "no folder " << kAssets / "malformed";
@@ -56,14 +74,16 @@ TEST(GltfAssets, ScenesAndModelsLoadWithUnitNormalsAndWithinTheLocalFrame) {
       std::size_t notUnit = 0;
       for (const Vec3f& n : scene.normals) notUnit += std::fabs(length(n) - 1) > 1e-5f;
       EXPECT_EQ(notUnit, 0u) << file;
+      expectTangentFrames(scene, file);
     }
   }
 }
 
 TEST(GltfAssets, WrittenScenesComeBackBitForBit) {
   if (!fs::exists(kAssets / "scenes")) GTEST_SKIP() << "no folder " << kAssets / "scenes";
-  for (const char* name : {"scenes/cornell_nv/cornellBox.gltf", "scenes/living_room.glb", "scenes/hotel_room.glb",
-                           "models/sheen_chair.glb", "models/velvet_sofa.glb", "scenes/lights_minimal.glb"}) {
+  for (const char* name :
+       {"scenes/cornell_nv/cornellBox.gltf", "scenes/living_room.glb", "scenes/hotel_room.glb",
+        "models/sheen_chair.glb", "models/velvet_sofa.glb", "models/avocado.glb", "scenes/lights_minimal.glb"}) {
     const Scene scene = readGltf(kAssets / name);
     AtlasUv uv;
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
@@ -73,18 +93,48 @@ TEST(GltfAssets, WrittenScenesComeBackBitForBit) {
     }
     const Scene again = readGlb(writeSceneGlb(scene, uv), name);
     ASSERT_EQ(again.triangles.size(), scene.triangles.size()) << name;
+    ASSERT_EQ(again.tangents.size(), scene.tangents.empty() ? 0 : again.positions.size()) << name;
     std::size_t different = 0;
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = scene.triangles[t].v[k], w = again.triangles[t].v[k];
         const bool same = scene.positions[v] == again.positions[w] && scene.normals[v] == again.normals[w] &&
-                          again.atlasUv[w] == uv.corner[t][k];
+                          again.atlasUv[w] == uv.corner[t][k] &&
+                          (scene.tangents.empty() || scene.tangents[v] == again.tangents[w]);
         different += !same;
       }
     }
     EXPECT_EQ(different, 0u) << name;
     EXPECT_EQ(again.chartOfTriangle, uv.chartOfTriangle) << name;
     EXPECT_EQ(again.leftOut, scene.leftOut) << name;
+    EXPECT_EQ(again.tangents.empty(), scene.tangents.empty()) << name;
+    EXPECT_EQ(again.skipped, scene.skipped) << name;
+  }
+}
+
+/// The file's own tangents, made by other programs, against those that the reader computes without them.
+TEST(GltfAssets, ComputedTangentsAgreeWithThoseOfTheFile) {
+  if (!fs::exists(kAssets / "models")) GTEST_SKIP() << "no folder " << kAssets / "models";
+  for (const char* name : {"models/avocado.glb", "models/water_bottle.glb", "scenes/lights_punctual_lamp.glb"}) {
+    const Scene given = readGltf(kAssets / name);
+    GltfSource bare = *given.source;
+    for (Json& mesh : bare.json["meshes"]) {
+      for (Json& primitive : mesh["primitives"]) primitive["attributes"].erase("TANGENT");
+    }
+    const Scene computed = readGlb(packGltf(bare), name);
+    ASSERT_EQ(computed.triangles.size(), given.triangles.size()) << name;
+    std::size_t corners = 0, along = 0, sameSide = 0;
+    for (std::uint32_t t = 0; t < given.triangles.size(); ++t) {
+      if (!given.materials[given.triangles[t].material].normalTexture || given.skipped[t] != 0) continue;
+      for (const int k : {0, 1, 2}) {
+        const Vec4f a = given.tangents[given.triangles[t].v[k]], b = computed.tangents[computed.triangles[t].v[k]];
+        ++corners;
+        along += a.x * b.x + a.y * b.y + a.z * b.z > 0.95f;
+        sameSide += a.w == b.w;
+      }
+    }
+    EXPECT_GT(along, corners * 0.98) << name;
+    EXPECT_GT(sameSide, corners * 0.99) << name;
   }
 }
 

@@ -24,12 +24,20 @@ bool sameUse(const TextureUse& a, const TextureUse& b) {
   return a.texture == b.texture && a.uvSet == b.uvSet && a.rowU == b.rowU && a.rowV == b.rowV && a.offset == b.offset;
 }
 
+bool sameTextures(const Material& a, const Material& b) {
+  return sameUse(a.baseColorTexture, b.baseColorTexture) && sameUse(a.emissiveTexture, b.emissiveTexture) &&
+         sameUse(a.metallicRoughnessTexture, b.metallicRoughnessTexture) && sameUse(a.normalTexture, b.normalTexture) &&
+         sameUse(a.specularTexture, b.specularTexture) && sameUse(a.specularColorTexture, b.specularColorTexture) &&
+         sameUse(a.transmissionTexture, b.transmissionTexture);
+}
+
 bool sameMaterial(const Material& a, const Material& b) {
-  return a.name == b.name && a.baseColor == b.baseColor && sameUse(a.baseColorTexture, b.baseColorTexture) &&
-         a.metallic == b.metallic && a.roughness == b.roughness &&
-         sameUse(a.metallicRoughnessTexture, b.metallicRoughnessTexture) && a.emissive == b.emissive &&
-         sameUse(a.emissiveTexture, b.emissiveTexture) && a.specular == b.specular &&
-         a.specularColor == b.specularColor && a.ior == b.ior && a.doubleSided == b.doubleSided;
+  return a.name == b.name && sameTextures(a, b) && a.baseColor == b.baseColor && a.alphaMode == b.alphaMode &&
+         a.alpha == b.alpha && a.alphaCutoff == b.alphaCutoff && a.unlit == b.unlit && a.metallic == b.metallic &&
+         a.roughness == b.roughness && a.emissive == b.emissive && a.normalScale == b.normalScale &&
+         a.specular == b.specular && a.specularColor == b.specularColor && a.ior == b.ior &&
+         a.transmission == b.transmission && a.solid == b.solid && a.attenuationColor == b.attenuationColor &&
+         a.attenuationDistance == b.attenuationDistance && a.doubleSided == b.doubleSided;
 }
 
 bool sameLight(const Light& a, const Light& b) {
@@ -61,7 +69,9 @@ void expectSameScene(const Scene& a, const Scene& b) {
   EXPECT_TRUE(a.uv0 == b.uv0);
   EXPECT_TRUE(a.uv1 == b.uv1);
   EXPECT_TRUE(a.atlasUv == b.atlasUv);
+  EXPECT_TRUE(a.tangents == b.tangents);
   EXPECT_EQ(a.smooth, b.smooth);
+  EXPECT_EQ(a.skipped, b.skipped);
   EXPECT_TRUE(std::ranges::equal(a.triangles, b.triangles, sameTriangle));
   EXPECT_TRUE(std::ranges::equal(a.materials, b.materials, sameMaterial));
   EXPECT_TRUE(std::ranges::equal(a.textures, b.textures, sameTexture));

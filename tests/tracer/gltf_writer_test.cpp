@@ -213,6 +213,48 @@ TEST(GltfWriter, ScenesMadeInMemoryCanBeWrittenAndRead) {
   EXPECT_NEAR(again.cameras[0].back.x, 1, 1e-12);
 }
 
+TEST(GltfWriter, MaterialsMadeInMemoryKeepAlphaMapsAndGlass) {
+  Material m = test::diffuseMaterial({0.5f, 0.25f, 1});
+  m.alphaMode = AlphaMode::mask;
+  m.alpha = 0.75f;
+  m.alphaCutoff = 0.25f;
+  m.transmission = 0.5f;
+  m.solid = true;
+  m.attenuationColor = {1, 0.5f, 0};
+  m.attenuationDistance = 3;
+  m.normalScale = 0.5f;
+  for (TextureUse* use : {&m.normalTexture, &m.specularTexture, &m.specularColorTexture, &m.transmissionTexture})
+    use->texture = 0;
+  test::SceneBuilder builder;
+  builder.addMaterial(m);
+  m = test::diffuseMaterial(Rgb{1.f}, Rgb{1.f});
+  m.unlit = true;
+  builder.addMaterial(m);
+  builder.addQuad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  builder.addQuad({0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, 1);
+  Scene scene = builder.build();
+  scene.textures.push_back({.image = 0});
+  scene.images.push_back({1, 1, {128, 128, 255, 255}});
+  scene.tangents.assign(scene.positions.size(), {0.6f, 0.8f, 0, -1});  // not those of the texture coordinates
+  const Scene again = readGlb(writeSceneGlb(scene, someAtlas(scene)), "memory.glb");
+  const Material &a = again.materials[0], &b = scene.materials[0];
+  EXPECT_EQ(a.alphaMode, b.alphaMode);
+  EXPECT_EQ(a.alpha, b.alpha);
+  EXPECT_EQ(a.alphaCutoff, b.alphaCutoff);
+  EXPECT_EQ(a.transmission, b.transmission);
+  EXPECT_TRUE(a.solid);
+  EXPECT_EQ(a.attenuationColor, b.attenuationColor);
+  EXPECT_EQ(a.attenuationDistance, b.attenuationDistance);
+  EXPECT_EQ(a.normalScale, b.normalScale);
+  EXPECT_TRUE(a.normalTexture && a.specularTexture && a.specularColorTexture && a.transmissionTexture);
+  EXPECT_TRUE(again.materials[1].unlit);
+  EXPECT_EQ(again.materials[1].emissive, Rgb{1.f});
+  const Vec4f t = again.tangents[again.triangles[0].v[0]];
+  EXPECT_NEAR(t.x, 0.6, 1e-6);
+  EXPECT_NEAR(t.y, 0.8, 1e-6);
+  EXPECT_EQ(t.w, -1);
+}
+
 TEST(GltfWriter, ForeignChartAttributesAreIgnoredAndSaid) {
   GltfMaker maker = squareMaker();
   squarePrimitive(maker)["attributes"]["_CHART"] = maker.floats({0, 1, 2, 3}, "SCALAR");

@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "tracer/scene/gltf_accessor.h"
+#include "tracer/scene/gltf_tangents.h"
 #include "tracer/scene/local_frame.h"
+#include "tracer/scene/tangent_space.h"
 
 namespace lucarne {
 namespace {
@@ -51,6 +53,8 @@ class InstanceReader {
   InstanceReader(const GltfSource& source, const WorldNode& node, const PrimitiveUse& use, const UvSlots& slots,
                  Scene& scene, std::vector<std::uint32_t>& sharedVertex);
   void read(std::uint32_t material);
+  /// After read(). Tangents of a primitive without normals do not count (glTF 2.0, 3.7.2.1).
+  void addTangents(const TextureUse& normalMap);
   /// Whether _CHART held something that is no chart number.
   bool foreignCharts() const { return foreignCharts_; }
 
@@ -112,6 +116,15 @@ void InstanceReader::read(std::uint32_t material) {
   scene_.instances.push_back(instance);
   for (std::size_t v = instance.firstVertex; v < scene_.sourceVertex.size(); ++v) {
     sharedVertex_[scene_.sourceVertex[v]] = kNone;
+  }
+}
+
+void InstanceReader::addTangents(const TextureUse& normalMap) {
+  const auto given = attributeOf(source_, json_, "TANGENT");
+  if (given && given->hasData() && normals_) {
+    readTangents(*given, node_, scene_);
+  } else {
+    computeTangents(scene_, normalMap);
   }
 }
 
@@ -218,11 +231,14 @@ void readGeometry(const GltfSource& source, const std::vector<WorldNode>& nodes,
     const std::size_t material = index == nullptr ? materials.materials.size() - 1 : index->get<std::size_t>();
     InstanceReader reader(source, nodes[use.worldNode], use, materials.uvSlots[material], scene, sharedVertex);
     reader.read(static_cast<std::uint32_t>(material));
+    const TextureUse& normalMap = materials.materials[material].normalTexture;
+    if (normalMap) reader.addTangents(normalMap);
     foreignCharts |= reader.foreignCharts();
   }
   for (std::vector<Vec2f>* uv : {&scene.uv0, &scene.uv1, &scene.atlasUv}) {
     if (!uv->empty()) uv->resize(scene.positions.size());
   }
+  if (!scene.tangents.empty()) fillTangents(scene);
   if (foreignCharts) scene.leftOut.push_back("vertex attribute _CHART: does not hold chart numbers, ignored");
   if (foreignCharts || !hasCharts(source, uses)) scene.chartOfTriangle.clear();
 }

@@ -14,7 +14,8 @@ namespace lucarne {
 /// not finite.
 Box trianglesBox(const GltfSource& source, const std::vector<WorldNode>& nodes, const std::vector<PrimitiveUse>& uses);
 
-/// Fills positions, normals, texture coordinates, triangles, smooth, instances and charts. scene.frame is set before.
+/// Fills positions, normals, texture coordinates, tangents, triangles, smooth, instances and charts. scene.frame is set
+/// before.
 void readGeometry(const GltfSource& source, const std::vector<WorldNode>& nodes, const std::vector<PrimitiveUse>& uses,
                   const GltfMaterials& materials, Scene& scene);
 

@@ -80,6 +80,9 @@ void PlainWriter::addPrimitive(std::uint32_t first, std::uint32_t end) {
   std::vector<std::uint32_t> newVertex(scene_.positions.size(), kNone), indices;
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2f> uv0, uv1;
+  std::vector<Vec4f> tangents;
+  const std::uint32_t material = scene_.triangles[first].material;
+  const bool hasTangents = scene_.materials[material].normalTexture && !scene_.tangents.empty();
   for (std::uint32_t t = first; t < end; ++t) {
     for (const std::uint32_t v : scene_.triangles[t].v) {
       if (newVertex[v] == kNone) {
@@ -88,16 +91,18 @@ void PlainWriter::addPrimitive(std::uint32_t first, std::uint32_t end) {
         normals.push_back(scene_.normals[v]);
         if (!scene_.uv0.empty()) uv0.push_back(scene_.uv0[v]);
         if (!scene_.uv1.empty()) uv1.push_back(scene_.uv1[v]);
+        if (hasTangents) tangents.push_back(scene_.tangents[v]);
       }
       indices.push_back(newVertex[v]);
     }
   }
-  Json primitive = {{"material", scene_.triangles[first].material}};
+  Json primitive = {{"material", material}};
   primitive["indices"] = addAccessor(indices, 5125, "SCALAR");
   primitive["attributes"] = {{"POSITION", addAccessor(positions, 5126, "VEC3")},
                              {"NORMAL", addAccessor(normals, 5126, "VEC3")}};
   if (!uv0.empty()) primitive["attributes"]["TEXCOORD_0"] = addAccessor(uv0, 5126, "VEC2");
   if (!uv1.empty()) primitive["attributes"]["TEXCOORD_1"] = addAccessor(uv1, 5126, "VEC2");
+  if (hasTangents) primitive["attributes"]["TANGENT"] = addAccessor(tangents, 5126, "VEC4");
   Json& primitives = source_->json["meshes"][0]["primitives"];
   primitives.push_back(std::move(primitive));
   PrimitiveInstance instance{};

@@ -11,18 +11,20 @@ struct MeshContext {
   std::size_t materials;
 };
 
-std::uint32_t componentsOf(const std::string& attribute) {
+std::uint32_t componentsOf(const std::string& attribute, bool isTarget) {
   if (attribute == "POSITION" || attribute == "NORMAL") return 3;
+  if (attribute == "TANGENT") return isTarget ? 3 : 4;
   return attribute.starts_with("TEXCOORD_") ? 2 : 0;
 }
 
 /// All attributes of a primitive or morph target; `count` is the number of vertices, 0 while unknown.
-void validateAttributes(const Json& attributes, std::uint64_t& count, const MeshContext& context, const Place& place) {
+void validateAttributes(const Json& attributes, bool isTarget, std::uint64_t& count, const MeshContext& context,
+                        const Place& place) {
   for (const auto& [name, value] : attributes.items()) {
     const Place where = place.in(name);
     const AccessorLayout layout =
         accessorLayout(context.accessors[asIndex(value, context.accessors.size(), where)], where);
-    const std::uint32_t components = componentsOf(name);
+    const std::uint32_t components = componentsOf(name, isTarget);
     if (components != 0 && layout.components != components) {
       where.fail("has " + std::to_string(layout.components) + " components, not " + std::to_string(components));
     }
@@ -44,13 +46,13 @@ void validatePrimitive(const Json& primitive, const MeshContext& context, const 
   const Json* attributes = findObject(primitive, "attributes", place);
   if (attributes == nullptr) place.fail("has no attributes");
   std::uint64_t count = 0;
-  validateAttributes(*attributes, count, context, place.in("attributes"));
+  validateAttributes(*attributes, false, count, context, place.in("attributes"));
   validateIndices(primitive, context, place);
   indexOf(primitive, "material", context.materials, place);
   if (countOf(primitive, "mode", 4, place) > 6) place.in("mode").fail("is none of 0 to 6");
   const Json& targets = objectArray(primitive, "targets", place);
   for (std::size_t i = 0; i < targets.size(); ++i)
-    validateAttributes(targets[i], count, context, place.in("targets", i));
+    validateAttributes(targets[i], true, count, context, place.in("targets", i));
 }
 
 }  // namespace
