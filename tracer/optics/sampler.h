@@ -1,11 +1,18 @@
-// Random numbers of photon i: a pure function of (seed, i, event, block), never of a thread, a rank or what came before.
+// Numbers of photon i: a pure function of (seed, i, event, stream), never of a thread, a rank or what came before. Event 0
+// is the emission, event k ≥ 1 the k-th hit.
 //
-// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"): counter (i, event,
-// block), key seed. Event 0 is the emission, event k ≥ 1 the k-th hit.
+// Two samplers with one interface, for templates to choose from. A block is the four words of one (event, stream): the
+// top 24 bits of each are a number to sample with, the low 8 are free for rounding.
+//   RandomSampler  Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"): counter
+//                  (i, event, stream), key seed. All words of all photons are independent.
+//   SobolSampler   the block is a four-dimensional low-discrepancy point set over the photons (sobol.h), the blocks are
+//                  independent of each other. Each word alone is as uniform as a random one.
 #pragma once
 
 #include <array>
 #include <cstdint>
+
+#include "tracer/optics/sobol.h"
 
 namespace lucarne {
 
@@ -33,9 +40,25 @@ constexpr double toUnitDouble(std::uint32_t high, std::uint32_t low) {
 /// What a block of numbers is for; one stream never shares numbers with another.
 enum class Stream : std::uint32_t { scatter = 0, emitter = 1, emission = 2 };
 
-class PhotonSampler {
+enum class SamplerKind : std::uint8_t { random, sobol };
+
+/// What chooses the emitter, and the side of it: the block (event 0, emitter), made once.
+struct EmitterNumbers {
+  double pick;  // 53 bits
+  float side;
+};
+
+namespace detail {
+
+constexpr std::array<float, 4> toUnitFloats(const std::array<std::uint32_t, 4>& w) {
+  return {toUnitFloat(w[0]), toUnitFloat(w[1]), toUnitFloat(w[2]), toUnitFloat(w[3])};
+}
+
+}  // namespace detail
+
+class RandomSampler {
  public:
-  PhotonSampler(std::uint64_t seed, std::uint64_t photon) : seed_(seed), photon_(photon) {}
+  RandomSampler(std::uint64_t seed, std::uint64_t photon) : seed_(seed), photon_(photon) {}
   std::uint64_t photon() const { return photon_; }
 
   std::array<std::uint32_t, 4> words(std::uint32_t event, Stream stream) const {
@@ -44,12 +67,50 @@ class PhotonSampler {
                       seed_);
   }
   std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
-    const auto w = words(event, stream);
-    return {toUnitFloat(w[0]), toUnitFloat(w[1]), toUnitFloat(w[2]), toUnitFloat(w[3])};
+    return detail::toUnitFloats(words(event, stream));
   }
+  EmitterNumbers emitter() const {
+    const auto w = words(0, Stream::emitter);
+    return {toUnitDouble(w[0], w[1]), toUnitFloat(w[2])};
+  }
+  double pick() const { return emitter().pick; }
+  float side() const { return emitter().side; }
 
  private:
   std::uint64_t seed_, photon_;
+};
+
+using PhotonSampler = RandomSampler;
+
+/// The photons k·2^32 to (k + 1)·2^32 − 1 of a block are one point set, scrambled by a hash of (seed, event, stream, k):
+/// any 2^m photons from a multiple of 2^m on are stratified as sobolOwen says.
+class SobolSampler {
+ public:
+  SobolSampler(std::uint64_t seed, std::uint64_t photon)
+      : key_(mix64(mix64(seed) + (photon >> 32))),
+        photon_(photon),
+        reversed_(reverseBits(static_cast<std::uint32_t>(photon))) {}
+  std::uint64_t photon() const { return photon_; }
+
+  std::array<std::uint32_t, 4> words(std::uint32_t event, Stream stream) const {
+    return sobolOwen(reversed_, sobolSeeds(key_, std::uint64_t{event} << 2 | static_cast<std::uint32_t>(stream)));
+  }
+  std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
+    return detail::toUnitFloats(words(event, stream));
+  }
+  /// Pick and side are dimensions 0 and 1. A word has too few bits for a pick among many emitters; those below its last
+  /// are a hash of it, as Owen's scramble would go on: the pick stays a stratified sequence, and uniform in all 53 bits.
+  EmitterNumbers emitter() const {
+    const auto w = words(0, Stream::emitter);
+    const auto below = static_cast<std::uint32_t>(mix64(~key_ ^ w[0]) >> 32);
+    return {toUnitDouble(w[0], below), toUnitFloat(w[1])};
+  }
+  double pick() const { return emitter().pick; }
+  float side() const { return emitter().side; }
+
+ private:
+  std::uint64_t key_, photon_;
+  std::uint32_t reversed_;
 };
 
 }  // namespace lucarne
