@@ -25,6 +25,13 @@ inline float ggxD(float cosH, float alpha) {
   return a2 / (kPi * d * d);
 }
 
+/// The same of a unit vector: its sine comes from x and y, so that it is exact at the smallest alpha too.
+inline float ggxD(Vec3f h, float alpha) {
+  const float a2 = alpha * alpha;
+  const float d = (h.x * h.x + h.y * h.y) + a2 * h.z * h.z;
+  return a2 / (kPi * d * d);
+}
+
 /// Smith's Λ for a direction at cosine c > 0.
 inline float ggxLambda(float c, float alpha) {
   const float c2 = c * c;
