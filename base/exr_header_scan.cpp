@@ -22,18 +22,21 @@ constexpr int kMaxParts = 4096;
 /// Walks "name\0 type\0 size value" records, once for each part of the file.
 class HeaderScan {
  public:
-  explicit HeaderScan(const InputFile& file) : name_(file.path().string()), size_(file.size()), stream_(file) {}
+  HeaderScan(const InputFile& file, ExrTiles tiles)
+      : name_(file.path().string()), size_(file.size()), tiles_(tiles), stream_(file) {}
 
   void scan() {
     if (readU32() != kMagic) refuse("is not an OpenEXR file");
     const std::uint32_t version = readU32();
     if ((version & 0xff) != 2 || (version & ~(kKnownFlags | 0xffu)) != 0) refuse("is of an unknown OpenEXR version");
     if ((version & kDeep) != 0) refuse("is a deep OpenEXR file, which is not read; flatten it");
-    if ((version & kTiled) != 0) refuseTiled();
+    isTiled_ = (version & kTiled) != 0;
+    isMultiPart_ = (version & kMultiPart) != 0;
+    if (isTiled_) checkTiled();
     int parts = 0;
     while (scanPart()) {
       ++parts;
-      if ((version & kMultiPart) == 0) return;
+      if (!isMultiPart_) return;
       if (parts > kMaxParts) refuse("has more than " + std::to_string(kMaxParts) + " layers");
     }
     if (parts == 0) refuse("has an empty OpenEXR header");
@@ -57,9 +60,12 @@ class HeaderScan {
     return any;
   }
 
+  /// A file of one part says twice whether it is tiled: in the version's flags, and perhaps in its type.
   void checkPartType(const std::string& type) {
     if (type.starts_with("deep")) refuse("has a deep layer, which is not read; flatten it");
-    if (type == "tiledimage") refuseTiled();
+    const bool isTiled = type == "tiledimage";
+    if (isTiled) checkTiled();
+    if (!isMultiPart_ && isTiled != isTiled_) refuse("is damaged: it says both that it is tiled and that it is not");
   }
 
   std::string readBytes(std::size_t count) {
@@ -83,16 +89,20 @@ class HeaderScan {
     return text;
   }
 
-  [[noreturn]] void refuseTiled() const { refuse("is a tiled OpenEXR file, which is not read; save it as scanlines"); }
+  void checkTiled() const {
+    if (tiles_ == ExrTiles::refused) refuse("is a tiled OpenEXR file, which is not read here; save it as scanlines");
+  }
   [[noreturn]] void refuse(const std::string& reason) const { throw InputError(name_ + " " + reason); }
 
   std::string name_;
   std::uint64_t size_;
+  ExrTiles tiles_;
+  bool isTiled_ = false, isMultiPart_ = false;
   ExrInputStream stream_;
 };
 
 }  // namespace
 
-void scanExrHeader(const InputFile& file) { HeaderScan(file).scan(); }
+void scanExrHeader(const InputFile& file, ExrTiles tiles) { HeaderScan(file, tiles).scan(); }
 
 }  // namespace lucarne

@@ -6,7 +6,10 @@
 
 namespace lucarne {
 
-/// InputError when the file is no OpenEXR file, when it is deep or tiled, or when an attribute is longer than the file.
-void scanExrHeader(const InputFile& file);
+enum class ExrTiles { refused, read };
+
+/// InputError when the file is no OpenEXR file, when it is deep, tiled though `tiles` refuses that, or says two things
+/// about it, or when an attribute is longer than the file.
+void scanExrHeader(const InputFile& file, ExrTiles tiles);
 
 }  // namespace lucarne

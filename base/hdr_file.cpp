@@ -98,7 +98,8 @@ class HdrReader {
 
   void readLine(std::vector<Rgbe>& line) {
     const Rgbe first = readPixel();
-    const bool planes = first[0] == 2 && first[1] == 2 && first[2] < 128;
+    const bool mayBePlanes = line.size() >= 8 && line.size() < 0x8000;  // otherwise (2, 2, …) is a colour
+    const bool planes = mayBePlanes && first[0] == 2 && first[1] == 2 && first[2] < 128;
     if (!planes) return readFlatLine(first, line);
     if ((std::size_t{first[2]} << 8 | first[3]) != line.size()) refuse("a scanline has another width than the image");
     for (std::size_t plane = 0; plane < 4; ++plane) readPlane(line, plane);

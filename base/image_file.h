@@ -51,7 +51,8 @@ std::vector<ExrLayer> readExr(const std::filesystem::path& path);
 
 /// Linear RGB float EXR of one plain layer with channels R, G, B.
 void writeExrRgb(const std::filesystem::path& path, const ImageRgb& image);
-/// The R, G, B channels (or Y) of the first layer.
+/// The R, G, B channels (or Y) of the first layer, scanlines or tiles (the largest level). The image is the display
+/// window; pixels that the file does not store are black.
 ImageRgb readExrRgb(const std::filesystem::path& path);
 /// Radiance RGBE .hdr.
 ImageRgb readHdr(const std::filesystem::path& path);

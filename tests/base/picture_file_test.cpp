@@ -43,6 +43,12 @@ TEST(HdrFile, BothRunLengthCodesGiveTheSamePixels) {
   EXPECT_EQ(readHdrText(folder, hdrHeader(10, 1) + planes).pixels, expected);
 }
 
+TEST(HdrFile, NarrowPicturesAreNeverRunLengthCodedPlanes) {
+  const TempFolder folder;
+  const std::string pixel("\x02\x02\x00\x81", 4);  // would start a line of planes in a wider picture
+  EXPECT_EQ(readHdrText(folder, hdrHeader(1, 1) + pixel).pixels[0], Rgb(0.015625f, 0.015625f, 0));
+}
+
 TEST(HdrFile, ExposuresAreDividedOut) {
   const TempFolder folder;
   const std::string text = "#?RGBE\nEXPOSURE=2\nEXPOSURE= 4.0\n\n-Y 1 +X 1\n";
