@@ -52,22 +52,30 @@ TEST(Environment, AnyDirectionFindsAPixel) {
       for (const float z : {-1.f, -0.f, 0.f, 1.f}) EXPECT_EQ(e.radiance(normalize(Vec3f(x, y, z))).z, 1);
 }
 
-TEST(Environment, SampledDirectionsLieInThePixelThatWasChosen) {
+/// Samples of the map, some at the ends of the range, where a pixel's borders are nearest.
+void expectSamplesInTheirPixels(const Environment& e) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> number(0, 1);
-  for (const auto& [width, height] : {std::pair{64, 32}, {8192, 3}, {3, 4096}, {1, 1}, {1, 1000}, {1000, 1}, {7, 5}}) {
-    const Environment e(coordinateMap(width, height), "map");
-    for (int i = 0; i < 20000; ++i) {
-      // Some at the ends of the range, where a pixel's borders are nearest.
-      const double u = i % 5 == 0 ? 0 : i % 5 == 1 ? 1 - 0x1p-53 : number(random);
-      const double v = i % 7 == 0 ? 0 : i % 7 == 1 ? 1 - 0x1p-53 : number(random);
-      const Environment::Sample s = e.sample(u, v);
-      ASSERT_NEAR(length(s.direction), 1, 2e-7);
-      ASSERT_EQ(s.radiance, e.radiance(s.direction)) << width << " x " << height << " at " << u << ", " << v;
-      ASSERT_EQ(s.radiance, e.radiance(normalize(s.direction)));
-      ASSERT_EQ(s.pdf, e.pdf(s.direction));
-    }
+  for (int i = 0; i < 20000; ++i) {
+    const double u = i % 5 == 0 ? 0 : i % 5 == 1 ? 1 - 0x1p-53 : number(random);
+    const double v = i % 7 == 0 ? 0 : i % 7 == 1 ? 1 - 0x1p-53 : number(random);
+    const Environment::Sample s = e.sample(u, v);
+    ASSERT_NEAR(length(s.direction), 1, 2e-7);
+    ASSERT_EQ(s.radiance, e.radiance(s.direction)) << e.name() << " at " << u << ", " << v;
+    ASSERT_EQ(s.radiance, e.radiance(normalize(s.direction))) << e.name() << " at " << u << ", " << v;
+    ASSERT_EQ(s.pdf, e.pdf(s.direction));
   }
+}
+
+TEST(Environment, SampledDirectionsLieInThePixelThatWasChosen) {
+  for (const auto& [width, height] : {std::pair{64, 32}, {8192, 3}, {3, 4096}, {1, 1}, {1, 1000}, {1000, 1}, {7, 5}})
+    expectSamplesInTheirPixels(Environment(coordinateMap(width, height), std::to_string(width) + " columns"));
+}
+
+TEST(Environment, SampledDirectionsLieInTheirPixelsAtThePolesOfAFineMap) {
+  ImageRgb map = coordinateMap(5, 4096);
+  std::fill(map.pixels.begin() + 5 * 6, map.pixels.end() - 5 * 6, Rgb(0));
+  expectSamplesInTheirPixels(Environment(map, "poles"));
 }
 
 TEST(Environment, ColumnsGrowWithUAndRowsWithV) {
