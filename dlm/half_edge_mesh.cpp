@@ -10,6 +10,7 @@
 
 #include "dlm/chart_edges.h"
 #include "dlm/chart_weld.h"
+#include "tracer/scene/scene_cleanup.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wold-style-cast"
@@ -47,14 +48,6 @@ class QuietOpenMesh {
   bool was_;
 };
 
-/// No area beyond rounding: its plane is unknown.
-bool hasNoArea(const Scene& scene, std::uint32_t t) {
-  const Vec3d a(scene.corner(t, 0)), b(scene.corner(t, 1)), c(scene.corner(t, 2));
-  const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
-  constexpr double kFlat = 1e-10;  // height over longest edge
-  return !(length(scene.scaledNormal(t)) > kFlat * longest2);
-}
-
 /// Whether welding left the triangle facing about the same way (a sliver may turn over).
 bool keepsItsPlane(const Scene& scene, std::uint32_t t, const Corners& corners) {
   const Vec3d a(scene.positions[corners[0]]), b(scene.positions[corners[1]]), c(scene.positions[corners[2]]);
@@ -69,7 +62,7 @@ class Builder {
     const std::vector<std::uint32_t> welded = weldVertices(scene, weldDistance);
     for (std::uint32_t t = 0; t < corners_.size(); ++t) {
       corners_[t].fill(kNone);
-      if (hasNoArea(scene, t)) continue;
+      if (isSkipped(scene, t)) continue;
       for (int k = 0; k < 3; ++k) corners_[t][k] = welded[scene.triangles[t].v[k]];
       if (!keepsItsPlane(scene, t, corners_[t])) {
         for (int k = 0; k < 3; ++k) corners_[t][k] = scene.triangles[t].v[k];

@@ -5,9 +5,9 @@
 
 namespace lucarne {
 
-enum class Need { irradiance, directions };
+enum class Need { nothing, irradiance, directions };
 
-/// Directions where the material has a coat sharp enough to show them. A coat of Phong exponent below ½ (roughness above
+/// Nothing where no light is taken (unlit materials). Directions where the material has a coat sharp enough to show them. A coat of Phong exponent below ½ (roughness above
 /// about 0.84) is so wide that its highlight is the irradiance; a textured roughness may be sharp anywhere.
 Need needOf(const Material& material);
 

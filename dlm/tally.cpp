@@ -83,11 +83,14 @@ TallyLayout planTallies(const Scene& scene, const ChartSet& charts, const TexelL
   for (std::uint32_t c = 0; c < charts.charts.size(); ++c) {
     const Chart& chart = charts.charts[c];
     const Material& material = scene.materials[chart.material];
-    const bool directional = keepAllDirections || needOf(material) == Need::directions;
+    const Need need = needOf(material);
+    const bool directional = keepAllDirections || need == Need::directions;
+    // What is inside a volume shows through its front; its back has no maps.
+    const bool hasBack = material.doubleSided && !(material.transmits() && material.solid);
     plan.frontSide.push_back(kNone);
     plan.backSide.push_back(kNone);
     for (const bool back : {false, true}) {
-      if (back && !material.doubleSided) continue;
+      if (need == Need::nothing || (back && !hasBack)) continue;
       TallySide side{c, back, layout.charts[c].width, layout.charts[c].height,
                      directional ? sets.of(normalsOf(scene, chart, back)) : MemberSets::kIrradianceOnly, plan.lightEntries,
                      plan.texels};

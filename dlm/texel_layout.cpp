@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "dlm/texel_alpha.h"
 #include "dlm/texel_layout_coverage.h"
 
 namespace lucarne {
@@ -52,9 +53,9 @@ ChartLayout chartLayout(const Chart& chart, double texelsPerLocal, std::uint64_t
 }
 
 /// Spreads each triangle's surface over the texels in proportion to what they hold of its projection: the sum is the
-/// chart's area whatever rounding did to the corners.
+/// chart's area whatever rounding did to the corners. Where there are holes, what is there for light counts.
 void coverChart(const Scene& scene, const ChartSet& set, const Chart& chart, const ChartLayout& layout,
-                std::vector<double>& area) {
+                const TexelAlpha& alpha, std::vector<double>& area) {
   TexelCoverage coverage(layout.width, layout.height);
   const auto index = [&layout](int x, int y) {
     return layout.firstTexel + static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(layout.width) +
@@ -73,13 +74,16 @@ void coverChart(const Scene& scene, const ChartSet& set, const Chart& chart, con
     if (!(projected > 0)) {  // rounding left a line: all of it is where its middle is
       const Vec2d middle = (corner[0] + corner[1] + corner[2]) * (1.0 / 3);
       const TexelIndex texel = texelAt(layout, {static_cast<float>(middle.x), static_cast<float>(middle.y)});
-      area[index(texel.x, texel.y)] += surface;
+      area[index(texel.x, texel.y)] += surface * (alpha.varies(t) ? alpha.mean(t, corner, texel.x, texel.y) : 1);
       continue;
     }
     const double scale = surface / projected;
     for (const CoveredRun& run : runs) {
       const std::uint64_t first = index(run.x, run.y);
-      for (int i = 0; i < run.count; ++i) area[first + static_cast<std::uint64_t>(i)] += run.area * scale;
+      for (int i = 0; i < run.count; ++i) {
+        const double there = alpha.varies(t) ? alpha.mean(t, corner, run.x + i, run.y) : 1;
+        area[first + static_cast<std::uint64_t>(i)] += run.area * scale * there;
+      }
     }
   }
 }
@@ -107,8 +111,9 @@ TexelLayout layOutTexels(const Scene& scene, const ChartSet& set, const LayoutOp
                                              std::to_string(options.texelLimit));
   }
   layout.area.assign(layout.texelCount, 0.0);
+  const TexelAlpha alpha(scene);
   for (std::size_t i = 0; i < set.charts.size(); ++i) {
-    coverChart(scene, set, set.charts[i], layout.charts[i], layout.area);
+    coverChart(scene, set, set.charts[i], layout.charts[i], alpha, layout.area);
   }
   return layout;
 }

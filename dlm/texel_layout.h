@@ -31,7 +31,9 @@ struct TexelLayout {
   bool thinned = false;       // the budget lowered it
   std::vector<ChartLayout> charts;
   std::uint64_t texelCount = 0;
-  std::vector<double> area;  // [texel] surface inside, local units², summing to the charts' areas; 0: not covered
+  // [texel] surface inside that is there for light (alpha included), local units²; without holes they sum to the charts'
+  // areas. 0: not covered.
+  std::vector<double> area;
 };
 
 /// Throws Error(outOfResource) when even one texel a chart is over the budget.

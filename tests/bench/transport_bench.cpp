@@ -43,7 +43,7 @@ struct RaySink {
   Vec3f last{};
   void hit(const PhotonHit& h) {
     if (h.event > 1) rays.push_back({last, -h.wi});
-    last = RayCaster::leave(h.hit.position, h.n);
+    last = RayCaster::leave(h.hit.position, h.n, h.hit.clearance);
   }
   void endPhoton() {}
 };
@@ -78,11 +78,8 @@ RTCRayHit rayHit(Vec3f o, Vec3f d) {
 /// roulette. No textures, no BSDF, no ledger, no recomputed hit.
 std::uint64_t leanPhoton(const Fixture& f, std::uint64_t i) {
   const PhotonSampler sampler(0, i);
-  const auto pick = sampler.words(0, Stream::emitter);
-  const auto u = sampler.floats(0, Stream::emission);
-  const EmittedPhoton p =
-      f.photonScene->emitters().sample({toUnitDouble(pick[0], pick[1]), toUnitFloat(pick[2]), {u[0], u[1]}, {u[2], u[3]}});
-  Vec3f o = RayCaster::leave(p.position, p.normal), d = p.direction;
+  const EmittedPhoton p = f.photonScene->emitters().sample(emissionSample(sampler));
+  Vec3f o = RayCaster::leave(p.position, p.normal, 1e-6f), d = p.direction;
   for (std::uint32_t event = 1;; ++event) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

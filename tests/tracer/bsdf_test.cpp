@@ -147,7 +147,7 @@ TEST(Bsdf, DielectricWithSpecularZeroIsExactlyLambert) {
   m.specular = 0;
   m.roughness = 0.3f;
   m.baseColor = Rgb(0.6f);
-  const Bsdf b = makeBsdf(m, m.baseColor, m.metallic, m.roughness);
+  const Bsdf b = makeBsdf(m, factorsOf(m));
   EXPECT_TRUE(b.lambert());
   EXPECT_EQ(albedo(b, directions()[2]), Rgb(0.6f));
 }

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "tracer/optics/cumulative.h"
 #include "tracer/optics/warp.h"
+#include "tracer/scene/scene_cleanup.h"
 
 namespace lucarne {
 namespace {
@@ -52,7 +54,14 @@ constexpr std::array<Vec2f, 3> kWholeTriangle{Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0,
 
 }  // namespace
 
-EmitterTable::EmitterTable(const Scene& scene, const SurfaceTable& surfaces) : scene_(&scene), surfaces_(&surfaces) {
+EmissionSample emissionSample(const PhotonSampler& sampler) {
+  const auto u = sampler.floats(0, Stream::emission);
+  const EmitterNumbers choice = sampler.emitter();
+  return {choice.pick, choice.side, {u[0], u[1]}, {u[2], u[3]}};
+}
+
+EmitterTable::EmitterTable(const Scene& scene, const SurfaceTable& surfaces, const Environment* environment)
+    : scene_(&scene), surfaces_(&surfaces), environment_(environment) {
   Box box;
   for (const Triangle& t : scene.triangles)
     for (const std::uint32_t v : t.v) box.add(Vec3d(scene.positions[v]));
@@ -61,23 +70,29 @@ EmitterTable::EmitterTable(const Scene& scene, const SurfaceTable& surfaces) : s
     radius_ = 0.5 * length(box.extent()) * (1 + 1e-4);  // a little more, for rounding
   }
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
-    if (scene.materials[scene.triangles[i].material].emits()) addTriangle(i);
+    if (scene.materials[scene.triangles[i].material].emits() && !isSkipped(scene, i)) addTriangle(i);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) addLight(i);
+  addEnvironment();
   buildTable();
 }
 
 int EmitterTable::subdivisions(std::uint32_t triangle) const {
   const Material& m = scene_->materials[scene_->triangles[triangle].material];
-  if (!m.emissiveTexture || scene_->textures[m.emissiveTexture.texture].image == kNone) return 1;
-  const auto& set = m.emissiveTexture.uvSet == 0 ? scene_->uv0 : scene_->uv1;
+  return std::max(subdivisions(triangle, m.emissiveTexture),
+                  m.hasAlpha() ? subdivisions(triangle, m.baseColorTexture) : 1);
+}
+
+int EmitterTable::subdivisions(std::uint32_t triangle, const TextureUse& use) const {
+  if (!use || scene_->textures[use.texture].image == kNone) return 1;
+  const auto& set = use.uvSet == 0 ? scene_->uv0 : scene_->uv1;
   if (set.empty()) return 1;
-  const Image& image = scene_->images[scene_->textures[m.emissiveTexture.texture].image];
+  const Image& image = scene_->images[scene_->textures[use.texture].image];
   const Triangle& t = scene_->triangles[triangle];
   float longest = 0;
   for (int k = 0; k < 3; ++k) {
     const Vec2f d = set[t.v[(k + 1) % 3]] - set[t.v[k]];
-    const Vec2f e{dot(m.emissiveTexture.rowU, d) * static_cast<float>(image.width),
-                  dot(m.emissiveTexture.rowV, d) * static_cast<float>(image.height)};
+    const Vec2f e{dot(use.rowU, d) * static_cast<float>(image.width),
+                  dot(use.rowV, d) * static_cast<float>(image.height)};
     longest = std::max(longest, std::sqrt(dot(e, e)));
   }
   constexpr float kTexelsAPiece = 4, kMostCuts = 256;
@@ -104,6 +119,7 @@ void EmitterTable::addTriangle(std::uint32_t triangle) {
   if (!(total > 0)) return;
   // A tenth of the weight is spread evenly, so that no piece whose light slipped through the quadrature is left out.
   const double even = total / static_cast<double>(pieces.size());
+  const auto firstEmitter = static_cast<std::uint32_t>(emitters_.size());
   for (Emitter& e : pieces) {
     const double value = pieces.size() == 1 ? e.flux : 0.9 * e.flux + 0.1 * even;
     e.flux = sides * kPiD * pieceArea * value;
@@ -112,8 +128,8 @@ void EmitterTable::addTriangle(std::uint32_t triangle) {
   }
   const Vec3f p0 = scene_->corner(triangle, 0);
   faces_.push_back({p0, scene_->corner(triangle, 1) - p0, scene_->corner(triangle, 2) - p0,
-                    Vec3f(normalize(scene_->scaledNormal(triangle))), m.emissive, triangle, bool(m.emissiveTexture),
-                    m.doubleSided});
+                    Vec3f(normalize(scene_->scaledNormal(triangle))), m.emissive, triangle, firstEmitter,
+                    static_cast<std::uint32_t>(n), bool(m.emissiveTexture) || m.hasAlpha(), m.doubleSided});
 }
 
 void EmitterTable::addLight(std::uint32_t index) {
@@ -139,29 +155,64 @@ void EmitterTable::addLight(std::uint32_t index) {
   emitters_.push_back({flux, 0, kNone, index, {}, {}, {}});
 }
 
-void EmitterTable::buildTable() {
-  double sum = 0;
-  for (const Emitter& e : emitters_) cumulative_.push_back(sum += e.flux);
-  totalFlux_ = sum;
-  for (double& c : cumulative_) c /= sum;
-  std::uint32_t i = 0;
-  for (std::size_t k = 0; k < cumulative_.size(); ++k) {
-    const double u = static_cast<double>(k) / static_cast<double>(cumulative_.size());
-    while (i + 1 < cumulative_.size() && cumulative_[i] <= u) ++i;
-    guide_.push_back(i);
+/// Light of radiance L from all around crosses a disc of the bounding sphere's radius from each direction: π·R²·∫L dω.
+void EmitterTable::addEnvironment() {
+  if (environment_ == nullptr) return;
+  const double metres = radius_ * scene_->frame.scale;
+  const double flux = kPiD * metres * metres * mean(environment_->scalarIrradiance());
+  if (flux > 0) {
+    emitters_.push_back({flux, 0, kNone, kSky, {}, {}, {}});
+  } else {
+    dark_.push_back(environment_->name());
   }
 }
 
-std::size_t EmitterTable::pick(double u) const {
-  const std::size_t n = cumulative_.size();
-  std::size_t i = guide_[std::min(static_cast<std::size_t>(u * static_cast<double>(n)), n - 1)];
-  while (i + 1 < n && cumulative_[i] <= u) ++i;
-  return i;
+void EmitterTable::buildTable() {
+  for (const Emitter& e : emitters_) cumulative_.push_back(e.flux);
+  totalFlux_ = makeCumulative(cumulative_);
+  guide_.resize(cumulative_.size());
+  makeGuide(cumulative_, guide_);
 }
 
+/// The inverse of forEachPiece(): before row i come i·(2n − i) pieces, in a row two a column but for the last.
+std::uint32_t EmitterTable::pieceAt(const Face& face, Vec2f b) {
+  const std::uint32_t n = face.cuts;
+  const auto cell = [n](float x) {
+    return std::min(static_cast<std::uint32_t>(std::max(0.f, x) * static_cast<float>(n)), n - 1);
+  };
+  const std::uint32_t i = cell(b.x), j = std::min(cell(b.y), n - 1 - i);
+  const float x = b.x * static_cast<float>(n) - static_cast<float>(i),
+              y = b.y * static_cast<float>(n) - static_cast<float>(j);
+  const bool upper = x + y > 1 && i + j + 1 < n;
+  return i * (2 * n - i) + 2 * j + (upper ? 1 : 0);
+}
+
+std::size_t EmitterTable::pick(double u) const { return choose(cumulative_, guide_, u).index; }
+
 EmittedPhoton EmitterTable::sample(const EmissionSample& u) const {
-  const Emitter& e = emitters_[pick(u.pick)];
-  return e.face != kNone ? emitFromTriangle(e, u) : emitFromLight(e, u);
+  const std::size_t i = pick(u.pick);
+  const Emitter& e = emitters_[i];
+  if (e.guide == kNone) return sampleUnguided(i, u);
+  const EmissionGuide::Numbers guided = guides_[e.guide].warp(u.direction, u.position);
+  EmittedPhoton photon = sampleUnguided(i, {u.pick, u.side, guided.place, guided.direction});
+  photon.beta *= static_cast<float>(1 / guided.density);
+  return photon;
+}
+
+EmittedPhoton EmitterTable::sampleUnguided(std::size_t emitter, const EmissionSample& u) const {
+  const Emitter& e = emitters_[emitter];
+  if (e.face != kNone) return emitFromTriangle(e, u);
+  return e.light == kSky ? emitFromSky(u) : emitFromLight(e, u);
+}
+
+bool EmitterTable::isDistant(std::size_t emitter) const {
+  const Emitter& e = emitters_[emitter];
+  return e.face == kNone && (e.light == kSky || scene_->lights[e.light].kind == LightKind::directional);
+}
+
+void EmitterTable::setGuide(std::size_t emitter, EmissionGuide guide) {
+  emitters_[emitter].guide = static_cast<std::uint32_t>(guides_.size());
+  guides_.push_back(std::move(guide));
 }
 
 /// Position pdf 1/area, direction pdf cos/π, side pdf 1/sides, piece pdf flux/total:
@@ -191,10 +242,21 @@ EmittedPhoton EmitterTable::emitFromLight(const Emitter& e, const EmissionSample
     case LightKind::directional:
       break;
   }
-  // From a disc that just covers the scene's bounding sphere, upstream of it.
-  const Vec2f d = sampleDisc(u.position);
-  const Vec3d offset(frame.toWorld({d.x, d.y, -1.f}));
-  return {center_ + offset * radius_, Vec3f(l.direction), beta, kNone, {}};
+  return fromDisc(Vec3f(l.direction), u.position, beta);
+}
+
+/// The direction's density is mean(L)/∫mean(L): a photon carries L/mean(L).
+EmittedPhoton EmitterTable::emitFromSky(const EmissionSample& u) const {
+  const Environment::Sample s =
+      environment_->sample(static_cast<double>(u.direction.x), static_cast<double>(u.direction.y));
+  return fromDisc(-s.direction, u.position, s.radiance * (1 / mean(s.radiance)));
+}
+
+/// From a disc that just covers the scene's bounding sphere, upstream of it.
+EmittedPhoton EmitterTable::fromDisc(Vec3f direction, Vec2f u, Rgb beta) const {
+  const Vec2f d = sampleDisc(u);
+  const Vec3d offset(Frame<float>(direction).toWorld({d.x, d.y, -1.f}));
+  return {center_ + offset * radius_, direction, beta, kNone, {}};
 }
 
 }  // namespace lucarne

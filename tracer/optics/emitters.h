@@ -1,4 +1,5 @@
-// All light sources of a scene, picked in proportion to flux: emissive triangles, point, spot and directional lights.
+// All light sources of a scene, picked in proportion to flux: emissive triangles, point, spot and directional lights,
+// and the environment.
 //
 // An emitted photon carries `beta`: its flux as a fraction of totalFlux(), E[Σ beta / N] = emitted flux / totalFlux.
 // Picking uses a cumulative table with a guide (Chen and Asau 1974): O(1) and order-preserving, so that neighbouring
@@ -10,6 +11,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "tracer/optics/emission_guide.h"
+#include "tracer/optics/environment.h"
+#include "tracer/optics/sampler.h"
 #include "tracer/optics/surface.h"
 #include "tracer/scene/scene.h"
 
@@ -29,48 +33,77 @@ struct EmissionSample {
   float side;
   Vec2f position, direction;
 };
+EmissionSample emissionSample(const PhotonSampler& sampler);
 
 class EmitterTable {
  public:
-  /// `surfaces` must outlive the table.
-  EmitterTable(const Scene& scene, const SurfaceTable& surfaces);
+  static constexpr std::uint32_t kSky = kNone - 1;
+
+  struct Emitter {                // a light, a piece of a face, or the environment
+    double flux;                  // weight, lm (mean over channels)
+    double beta;                  // of a photon, per unit of radiance where it starts
+    std::uint32_t face;           // into faces_; kNone: light
+    std::uint32_t light;          // into the scene's lights; kSky: the environment
+    Vec2f bary0, edge1, edge2;    // corner and edges of the piece in barycentrics of the face
+    std::uint32_t guide = kNone;  // into guides_
+  };
+  struct Face {  // what all pieces of one emissive triangle share
+    Vec3f p0, e1, e2, n;
+    Rgb radiance;  // cd/m², where it is the same everywhere
+    std::uint32_t triangle;
+    std::uint32_t firstEmitter, cuts;  // its cuts² pieces, in the order of pieceAt()
+    bool textured, twoSided;
+  };
+
+  /// All must outlive the table; no environment (null) is a black one.
+  EmitterTable(const Scene& scene, const SurfaceTable& surfaces, const Environment* environment = nullptr);
 
   bool empty() const { return cumulative_.empty(); }
   std::size_t size() const { return emitters_.size(); }
   /// lm, mean over channels; the scale of beta.
   double totalFlux() const { return totalFlux_; }
   EmittedPhoton sample(const EmissionSample& u) const;
+  /// The same from a chosen emitter, whatever its guide; beta as if all photons came from it.
+  EmittedPhoton sampleUnguided(std::size_t emitter, const EmissionSample& u) const;
+  /// Light from far away: suns and the environment, which guides are made for.
+  bool isDistant(std::size_t emitter) const;
+  /// Photons of a distant emitter follow the guide from now on.
+  void setGuide(std::size_t emitter, EmissionGuide guide);
+  const std::vector<EmissionGuide>& guides() const { return guides_; }
+  const Emitter& emitter(std::size_t i) const { return emitters_[i]; }
+  const Face& face(std::size_t i) const { return faces_[i]; }
+  std::size_t faceCount() const { return faces_.size(); }
+  const Environment* environment() const { return environment_; }
+  /// The emitter that a number in [0, 1) picks; emitter i owns an interval as long as its share of the flux.
+  std::size_t pick(double u) const;
+  /// Which of a face's pieces holds barycentrics b.
+  static std::uint32_t pieceAt(const Face& face, Vec2f b);
+  /// Emitters but the environment, which is the last one where there is one.
+  std::size_t localCount() const { return emitters_.size() - (hasSky() ? 1 : 0); }
+  bool hasSky() const { return !emitters_.empty() && emitters_.back().light == kSky; }
   /// Emitters that give nothing: names of lights with zero intensity. For warnings.
   const std::vector<std::string>& dark() const { return dark_; }
 
  private:
-  struct Emitter {       // a light, or a piece of a face
-    double flux;         // weight, lm (mean over channels)
-    double beta;         // of a photon, per unit of radiance where it starts
-    std::uint32_t face;  // into faces_; kNone: light
-    std::uint32_t light;
-    Vec2f bary0, edge1, edge2;  // corner and edges of the piece in barycentrics of the face
-  };
-  struct Face {  // what all pieces of one emissive triangle share
-    Vec3f p0, e1, e2, n;
-    Rgb radiance;  // cd/m², where it is the same everywhere
-    std::uint32_t triangle;
-    bool textured, twoSided;
-  };
   void addTriangle(std::uint32_t triangle);
   void addLight(std::uint32_t index);
+  void addEnvironment();
   void buildTable();
   int subdivisions(std::uint32_t triangle) const;
-  std::size_t pick(double u) const;
+  int subdivisions(std::uint32_t triangle, const TextureUse& use) const;
   EmittedPhoton emitFromTriangle(const Emitter& e, const EmissionSample& u) const;
   EmittedPhoton emitFromLight(const Emitter& e, const EmissionSample& u) const;
+  EmittedPhoton emitFromSky(const EmissionSample& u) const;
+  EmittedPhoton fromDisc(Vec3f direction, Vec2f u, Rgb beta) const;
 
   const Scene* scene_;
   const SurfaceTable* surfaces_;
+  const Environment* environment_;
   Vec3d center_{};  // bounding sphere of the scene, local
   double radius_ = 0;
   std::vector<Emitter> emitters_;
   std::vector<Face> faces_;
+  std::vector<EmissionGuide> guides_;
   std::vector<double> cumulative_;    // [i] = Σ flux of 0..i, divided by the total
   std::vector<std::uint32_t> guide_;  // guide_[k]: first i with cumulative_[i] > k/size
   double totalFlux_ = 0;

@@ -38,7 +38,8 @@ constexpr double toUnitDouble(std::uint32_t high, std::uint32_t low) {
 }
 
 /// What a block of numbers is for; one stream never shares numbers with another.
-enum class Stream : std::uint32_t { scatter = 0, emitter = 1, emission = 2 };
+enum class Stream : std::uint32_t { scatter, emitter, emission, coverage, lamp, sky, place };
+inline constexpr int kStreamBits = 3;
 
 enum class SamplerKind : std::uint8_t { random, sobol };
 
@@ -80,8 +81,6 @@ class RandomSampler {
   std::uint64_t seed_, photon_;
 };
 
-using PhotonSampler = RandomSampler;
-
 /// The photons k·2^32 to (k + 1)·2^32 − 1 of a block are one point set, scrambled by a hash of (seed, event, stream, k):
 /// any 2^m photons from a multiple of 2^m on are stratified as sobolOwen says.
 class SobolSampler {
@@ -93,7 +92,7 @@ class SobolSampler {
   std::uint64_t photon() const { return photon_; }
 
   std::array<std::uint32_t, 4> words(std::uint32_t event, Stream stream) const {
-    return sobolOwen(reversed_, sobolSeeds(key_, std::uint64_t{event} << 2 | static_cast<std::uint32_t>(stream)));
+    return sobolOwen(reversed_, sobolSeeds(key_, std::uint64_t{event} << kStreamBits | static_cast<std::uint32_t>(stream)));
   }
   std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
     return detail::toUnitFloats(words(event, stream));
@@ -111,6 +110,35 @@ class SobolSampler {
  private:
   std::uint64_t key_, photon_;
   std::uint32_t reversed_;
+};
+
+/// Whose numbers photons get.
+struct PhotonSeed {
+  std::uint64_t seed = 0;
+  SamplerKind kind = SamplerKind::random;
+  PhotonSeed(std::uint64_t s, SamplerKind k = SamplerKind::random) : seed(s), kind(k) {}
+};
+
+/// Either of the two, chosen when the program runs. All photons of a run take the same branch, which costs nothing that
+/// can be measured.
+class PhotonSampler {
+ public:
+  PhotonSampler(const PhotonSeed& seed, std::uint64_t photon)
+      : kind_(seed.kind), random_(seed.seed, photon), sobol_(seed.seed, photon) {}
+  std::uint64_t photon() const { return random_.photon(); }
+
+  std::array<std::uint32_t, 4> words(std::uint32_t event, Stream stream) const {
+    return kind_ == SamplerKind::random ? random_.words(event, stream) : sobol_.words(event, stream);
+  }
+  std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
+    return detail::toUnitFloats(words(event, stream));
+  }
+  EmitterNumbers emitter() const { return kind_ == SamplerKind::random ? random_.emitter() : sobol_.emitter(); }
+
+ private:
+  SamplerKind kind_;
+  RandomSampler random_;
+  SobolSampler sobol_;
 };
 
 }  // namespace lucarne

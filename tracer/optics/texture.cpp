@@ -57,32 +57,68 @@ const DecodeTable& decodeTable(Encoding encoding) {
   return encoding == Encoding::srgb ? srgb : linear;
 }
 
-Rgb texel(const Image& image, int x, int y, const DecodeTable& decode) {
-  const auto* p = image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                           static_cast<std::size_t>(x));
-  return {decode[p[0]], decode[p[1]], decode[p[2]]};
-}
-
 }  // namespace
 
-Rgb lookUp(const Scene& scene, const TextureUse& use, Vec2f uv, Encoding encoding) {
-  if (!use) return Rgb(1.f);
+TextureReader::TextureReader(const Scene& scene, const TextureUse& use, Encoding encoding) {
+  if (!use || scene.textures[use.texture].image == kNone) return;
   const Texture& texture = scene.textures[use.texture];
-  if (texture.image == kNone) return Rgb(1.f);
   const Image& image = scene.images[texture.image];
-  const Vec2f st = Vec2f{dot(use.rowU, uv), dot(use.rowV, uv)} + use.offset;
-  const float shift = texture.nearest ? 0.f : 0.5f;
-  const float x = toTexels(st.x, image.width, texture.wrapS) - shift,
-              y = toTexels(st.y, image.height, texture.wrapT) - shift;
-  const DecodeTable& decode = decodeTable(encoding);
+  if (image.rgba.empty()) return;
+  pixels_ = image.rgba.data();
+  decode_ = decodeTable(encoding).data();
+  width_ = image.width;
+  height_ = image.height;
+  rowU_ = use.rowU;
+  rowV_ = use.rowV;
+  offset_ = use.offset;
+  wrapS_ = texture.wrapS;
+  wrapT_ = texture.wrapT;
+  nearest_ = texture.nearest;
+  uvSet_ = use.uvSet == 0 ? 0 : 1;
+}
+
+/// A nearest lookup is a bilinear one whose weights are 0.
+TextureReader::Place TextureReader::place(Vec2f uv) const {
+  const Vec2f st = Vec2f{dot(rowU_, uv), dot(rowV_, uv)} + offset_;
+  const float shift = nearest_ ? 0.f : 0.5f;
+  const float x = toTexels(st.x, width_, wrapS_) - shift, y = toTexels(st.y, height_, wrapT_) - shift;
   const int x0 = floorToInt(x), y0 = floorToInt(y);
-  const int ix = wrapIndex(x0, image.width, texture.wrapS), iy = wrapIndex(y0, image.height, texture.wrapT);
-  if (texture.nearest) return texel(image, ix, iy, decode);
-  const int jx = wrapIndex(x0 + 1, image.width, texture.wrapS), jy = wrapIndex(y0 + 1, image.height, texture.wrapT);
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  const Rgb top = texel(image, ix, iy, decode) * (1 - fx) + texel(image, jx, iy, decode) * fx;
-  const Rgb bottom = texel(image, ix, jy, decode) * (1 - fx) + texel(image, jx, jy, decode) * fx;
-  return top * (1 - fy) + bottom * fy;
+  const int ix = wrapIndex(x0, width_, wrapS_), iy = wrapIndex(y0, height_, wrapT_);
+  const int jx = wrapIndex(x0 + 1, width_, wrapS_), jy = wrapIndex(y0 + 1, height_, wrapT_);
+  const auto at = [this](int column, int row) {
+    return 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column));
+  };
+  return {{at(ix, iy), at(jx, iy), at(ix, jy), at(jx, jy)},
+          nearest_ ? 0.f : x - static_cast<float>(x0),
+          nearest_ ? 0.f : y - static_cast<float>(y0)};
+}
+
+double TextureReader::pixelArea(Vec2f edge1, Vec2f edge2) const {
+  const auto turned = [this](Vec2f e) {
+    return Vec2d{static_cast<double>(dot(rowU_, e)), static_cast<double>(dot(rowV_, e))};
+  };
+  const Vec2d a = turned(edge1), b = turned(edge2);
+  return std::abs(a.x * b.y - a.y * b.x) * width_ * height_;
+}
+
+Rgb TextureReader::rgb(Vec2f uv) const {
+  if (pixels_ == nullptr) return Rgb(1.f);
+  const Place p = place(uv);
+  const auto texel = [this](std::size_t at) {
+    return Rgb{decode_[pixels_[at]], decode_[pixels_[at + 1]], decode_[pixels_[at + 2]]};
+  };
+  const Rgb top = texel(p.texel[0]) * (1 - p.fx) + texel(p.texel[1]) * p.fx;
+  const Rgb bottom = texel(p.texel[2]) * (1 - p.fx) + texel(p.texel[3]) * p.fx;
+  return top * (1 - p.fy) + bottom * p.fy;
+}
+
+float TextureReader::alpha(Vec2f uv) const {
+  if (pixels_ == nullptr) return 1;
+  const Place p = place(uv);
+  const auto texel = [this](std::size_t at) { return static_cast<float>(pixels_[at + 3]) * (1.f / 255.f); };
+  const float top = texel(p.texel[0]) * (1 - p.fx) + texel(p.texel[1]) * p.fx;
+  const float bottom = texel(p.texel[2]) * (1 - p.fx) + texel(p.texel[3]) * p.fx;
+  return top * (1 - p.fy) + bottom * p.fy;
 }
 
 }  // namespace lucarne

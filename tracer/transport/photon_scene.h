@@ -8,18 +8,15 @@
 #include "tracer/optics/surface.h"
 #include "tracer/scene/scene.h"
 #include "tracer/transport/ray_caster.h"
+#include "tracer/transport/shading_normal.h"
 
 namespace lucarne {
 
 class PhotonScene {
  public:
-  /// `scene` must outlive this.
-  explicit PhotonScene(const Scene& scene, const RayCasterOptions& options = {})
-      : scene_(scene), surfaces_(scene), emitters_(scene, surfaces_), rayCaster_(scene, options) {
-    if (scene.smooth.empty()) return;
-    for (const Triangle& t : scene.triangles)
-      cornerNormals_.push_back({scene.normals[t.v[0]], scene.normals[t.v[1]], scene.normals[t.v[2]]});
-  }
+  /// `scene` and `environment` (null: none, black) must outlive this.
+  explicit PhotonScene(const Scene& scene, const RayCasterOptions& options = {},
+                       const Environment* environment = nullptr);
   PhotonScene(const PhotonScene&) = delete;
   PhotonScene& operator=(const PhotonScene&) = delete;
 
@@ -27,19 +24,24 @@ class PhotonScene {
   const SurfaceTable& surfaces() const { return surfaces_; }
   const EmitterTable& emitters() const { return emitters_; }
   const RayCaster& rayCaster() const { return rayCaster_; }
+  /// See EmitterTable::setGuide().
+  void setGuide(std::size_t emitter, EmissionGuide guide) { emitters_.setGuide(emitter, std::move(guide)); }
 
-  /// Interpolated shading normal on the side of `n` (the geometric normal of the side hit), or `n` itself on flat
-  /// triangles and where the interpolated one turns its back on `wi`.
-  Vec3f shadingNormal(const Hit& hit, Vec3f n, Vec3f wi) const {
+  /// Interpolated normal on the side of `n` (the geometric normal of the side hit), or `n` itself on flat triangles.
+  Vec3f shadingNormal(const Hit& hit, Vec3f n) const {
     if (!hit.smooth) return n;
     const std::array<Vec3f, 3>& corner = cornerNormals_[hit.triangle];
     const Vec3f ns = normalize(corner[0] * (1 - hit.b.x - hit.b.y) + corner[1] * hit.b.x + corner[2] * hit.b.y);
-    const Vec3f sided = hit.back ? -ns : ns;
-    constexpr float kGrazing = 0.01f;
-    return dot(sided, wi) > kGrazing && dot(sided, n) > kGrazing ? sided : n;
+    return keepInFront(hit.back ? -ns : ns, n);
+  }
+  /// The same with the material's normal map; `ns` is the answer of shadingNormal().
+  Vec3f mappedNormal(const Hit& hit, Vec3f n, Vec3f ns) const {
+    return surfaces_.hasNormalMap(hit.material) ? mapped(hit, n, ns) : ns;
   }
 
  private:
+  Vec3f mapped(const Hit& hit, Vec3f n, Vec3f ns) const;
+
   const Scene& scene_;
   SurfaceTable surfaces_;
   EmitterTable emitters_;

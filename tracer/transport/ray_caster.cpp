@@ -6,10 +6,13 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
+#include "tracer/scene/scene_cleanup.h"
 
 namespace lucarne {
 namespace {
@@ -39,6 +42,50 @@ void castRay(RTCScene scene, RTCRayHit& ray) {
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &ray);
 #endif
+}
+
+/// For each corner position the longest edge that ends there. A table by hash: positions that share a place only make
+/// an edge longer.
+class LongestEdges {
+ public:
+  explicit LongestEdges(const Scene& scene) : table_(std::bit_ceil(2 * scene.triangles.size() + 1)) {
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+      const float edge = longestEdge(scene, i);
+      for (int k = 0; k < 3; ++k) {
+        float& longest = table_[place(scene.corner(i, k))];
+        longest = std::max(longest, edge);
+      }
+    }
+  }
+  float at(Vec3f corner) const { return table_[place(corner)]; }
+
+ private:
+  static float longestEdge(const Scene& scene, std::uint32_t i) {
+    const Vec3f a = scene.corner(i, 0), b = scene.corner(i, 1), c = scene.corner(i, 2);
+    return std::max({length(b - a), length(c - b), length(a - c)});
+  }
+  std::size_t place(Vec3f p) const {
+    std::uint64_t h = 0;
+    for (const float x : {p.x, p.y, p.z}) h = (h ^ std::bit_cast<std::uint32_t>(x + 0.f)) * 0x9E3779B97F4A7C15u;
+    return (h >> 20) & (table_.size() - 1);
+  }
+  std::vector<float> table_;
+};
+
+/// How far off a triangle a ray must start that leaves it.
+///
+/// Its origin is rounded to float: off by at most 2^-25 of each coordinate, √3·2^-25·M along the normal, with M the
+/// largest coordinate. Embree finds the side of a plane from dot(v0 − origin, n), with an error of about 3·2^-24 of the
+/// distance to v0: at most the longest edge L of the triangles around, for those that lie in the same plane. Hence
+/// 2^-24·(2M + 3L); twice that is used.
+float clearanceOf(const Scene& scene, std::uint32_t i, const LongestEdges& edges) {
+  float largest = 0, longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3f p = scene.corner(i, k);
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    longest = std::max(longest, edges.at(p));
+  }
+  return 0x1p-24f * (4 * largest + 6 * longest);
 }
 
 /// The barycentric coordinate that keeps `distance` from every edge: distance / smallest height, which is twice the
@@ -81,13 +128,18 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
     *vertices++ = p.z;
   }
   triangles_.reserve(n);
+  const LongestEdges edges(scene);
   for (std::uint32_t i = 0; i < n; ++i) {
-    for (const std::uint32_t v : scene.triangles[i].v) *indices++ = v;
+    const bool skipped = isSkipped(scene, i);  // three times one corner: no ray meets it
+    for (const std::uint32_t v : scene.triangles[i].v) *indices++ = skipped ? scene.triangles[i].v[0] : v;
     const Vec3d scaled = scene.scaledNormal(i);
     const Vec3f e1 = scene.corner(i, 1) - scene.corner(i, 0), e2 = scene.corner(i, 2) - scene.corner(i, 0);
-    triangles_.push_back({scene.corner(i, 0), e1, e2, Vec3f(normalize(scaled)), scene.triangles[i].material,
-                          insetOf(e1, e2, length(scaled), static_cast<double>(kLeave)),
-                          !scene.smooth.empty() && scene.smooth[i] != 0});
+    const float clearance = clearanceOf(scene, i, edges);
+    TriangleData t{scene.corner(i, 0), e1, e2, Vec3f(normalize(scaled)), 0, 0, 0, clearance};
+    t.material = scene.triangles[i].material & 0x7fffffffu;
+    t.smooth = !scene.smooth.empty() && scene.smooth[i] != 0;
+    t.inset = insetOf(e1, e2, length(scaled), static_cast<double>(clearance));
+    triangles_.push_back(t);
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(embreeScene_, geometry);
@@ -126,13 +178,18 @@ std::uint32_t RayCaster::cast(Vec3f origin, Vec3f direction, float tnear, std::u
   return kNone;
 }
 
+std::uint32_t RayCaster::beyond(const Hit& hit, Vec3f origin, Vec3f direction, std::uint64_t& repeats) const {
+  const auto t = static_cast<float>(std::max(0.0, dot(hit.position - Vec3d(origin), Vec3d(direction))));
+  return cast(origin, direction, t * (1 + 0x1p-20f) + hit.clearance, hit.triangle, repeats);
+}
+
 std::uint32_t RayCaster::past(std::uint32_t met, Vec3f origin, Vec3f direction, std::uint32_t from,
                               std::uint64_t& repeats) const {
   Hit hit = intersect(met, origin, direction);
-  for (int attempt = 0; attempt < kMostRepeats && startsOn(hit, origin); ++attempt) {
+  for (int attempt = 0; attempt < kMostRepeats && startsOn(hit, origin, from); ++attempt) {
     if (attempt > 0 && !hit.back) break;
     const auto t = static_cast<float>(std::max(0.0, dot(hit.position - Vec3d(origin), Vec3d(direction))));
-    const std::uint32_t next = cast(origin, direction, t * (1 + 0x1p-18f) + 0x1p-22f, from, repeats);
+    const std::uint32_t next = cast(origin, direction, t * (1 + 0x1p-18f) + hit.clearance, from, repeats);
     if (next == kNone) return kNone;
     hit = intersect(next, origin, direction);
   }
@@ -145,6 +202,7 @@ std::uint32_t RayCaster::frontOn(const Hit& back, Vec3f direction) const {
     const RayCaster& caster;
     const Hit& back;
     Vec3f direction;
+    double touching;
     std::uint32_t found = kNone;
 
     static bool visit(RTCPointQueryFunctionArguments* arguments) {
@@ -152,13 +210,14 @@ std::uint32_t RayCaster::frontOn(const Hit& back, Vec3f direction) const {
       const TriangleData& t = self.caster.triangles_[arguments->primID];
       if (arguments->primID >= self.found || !(dot(t.n, self.direction) < 0)) return false;
       const Hit foot = self.caster.intersect(arguments->primID, Vec3f(self.back.position + Vec3d(t.n)), -t.n);
-      if (length(foot.position - self.back.position) <= kTouching) self.found = arguments->primID;
+      if (length(foot.position - self.back.position) <= self.touching) self.found = arguments->primID;
       return false;  // the radius stays
     }
   };
-  Search search{*this, back, direction};
+  const double touching = 2 * static_cast<double>(back.clearance);
+  Search search{*this, back, direction, touching};
   RTCPointQuery query{static_cast<float>(back.position.x), static_cast<float>(back.position.y),
-                      static_cast<float>(back.position.z), 0, static_cast<float>(kTouching)};
+                      static_cast<float>(back.position.z), 0, static_cast<float>(touching)};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(embreeScene_, &query, &context, &Search::visit, &search);

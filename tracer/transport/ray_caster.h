@@ -23,6 +23,7 @@ struct Hit {
   bool back;       // the ray came from behind
   bool smooth;     // of the triangle: normals are interpolated
   std::uint32_t material;
+  float clearance;  // local; rays that leave start so far off the triangle
 };
 
 struct RayCasterOptions {
@@ -41,6 +42,10 @@ class RayCaster {
   /// there is none. `repeats` counts the rare rays that met `from` again by rounding and were cast on.
   std::uint32_t nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const;
 
+  /// The next triangle behind a hit of the same ray, for light that goes straight through it. Triangles that touch the
+  /// one hit count as met with it.
+  std::uint32_t beyond(const Hit& hit, Vec3f origin, Vec3f direction, std::uint64_t& repeats) const;
+
   /// What a ray meets for which nearest() found the back of a one-sided triangle, or a triangle that it starts on and
   /// shall not meet. Triangles that touch are told apart: a ray that starts on the triangle goes on (a lamp that
   /// touches a wall is in front of it), and where the front of another lies on a back (rooms wall to wall, both faces
@@ -48,16 +53,22 @@ class RayCaster {
   /// and there is nothing.
   std::uint32_t past(std::uint32_t met, Vec3f origin, Vec3f direction, std::uint32_t from,
                      std::uint64_t& repeats) const;
-  /// True where a ray from `origin` starts on the very triangle that it meets.
-  static bool startsOn(const Hit& hit, Vec3f origin) {
-    return std::abs(dot(Vec3d(hit.n), hit.position - Vec3d(origin))) <= kTouching;
+  /// True where a ray from `origin`, which left the triangle `from` (or kNone), starts on the very triangle that it
+  /// meets.
+  bool startsOn(const Hit& hit, Vec3f origin, std::uint32_t from) const {
+    const float left = from == kNone ? 0.f : triangles_[from].clearance;
+    return std::abs(dot(Vec3d(hit.n), hit.position - Vec3d(origin))) <= 2 * static_cast<double>(std::max(left, hit.clearance));
   }
 
   /// Where a ray that is known to meet the triangle does so.
   Hit intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const;
 
-  /// A point just off the surface at `position`, on the side of `n`: far enough that the surface is not met again.
-  static Vec3f leave(Vec3d position, Vec3f n) { return Vec3f(position + Vec3d(n) * static_cast<double>(kLeave)); }
+  /// A point just off the triangle at `position` on it, on the side of `n`: far enough that neither it nor a neighbour in
+  /// its plane is met again, and no farther (see clearanceOf in ray_caster.cpp).
+  static Vec3f leave(Vec3d position, Vec3f n, float clearance) {
+    return Vec3f(position + Vec3d(n) * static_cast<double>(clearance));
+  }
+  float clearance(std::uint32_t triangle) const { return triangles_[triangle].clearance; }
 
   /// What was built with, for reports: "Embree 3.13.5, avx2, robust".
   const std::string& description() const { return description_; }
@@ -67,14 +78,11 @@ class RayCaster {
  private:
   struct alignas(64) TriangleData {  // one cache line a triangle
     Vec3f p0, e1, e2, n;
-    std::uint32_t material;
+    std::uint32_t material : 31, smooth : 1;
     float inset;  // smallest barycentric coordinate of a hit
-    bool smooth;
+    float clearance;
   };
-  /// Coordinates are within about one unit of the origin (scene.h), so one absolute offset serves: a float position is
-  /// off by up to 2^-24, Embree's plane distance by a few times that.
-  static constexpr float kLeave = 0x1p-21f;
-  static constexpr double kTouching = 0x1p-20;  // surfaces nearer than this are taken to touch
+  static_assert(sizeof(Vec3f) == 12);
   void build(const Scene& scene, const RayCasterOptions& options);
   std::uint32_t cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from, std::uint64_t& repeats) const;
   std::uint32_t frontOn(const Hit& back, Vec3f direction) const;
@@ -100,8 +108,9 @@ inline Hit RayCaster::intersect(std::uint32_t triangle, Vec3f origin, Vec3f dire
           p0 + e1 * b1 + e2 * b2,
           t.n,
           dot(t.n, direction) > 0,
-          t.smooth,
-          t.material};
+          t.smooth != 0,
+          t.material,
+          t.clearance};
 }
 
 }  // namespace lucarne

@@ -1,0 +1,46 @@
+// What a light map holds at a texel, by paths that start there instead of photons that end there: the truth that maps
+// are tested against.
+//
+//   value(t) = Σ k(t,t')·∫_t' E·α dA / Σ k(t,t')·area(t')
+//
+// the same functional as resolve.h, with the same areas: places are drawn from the surface inside the texels t' that
+// the kernel reaches, in proportion to k, and light that falls there is gathered by the path tracer. Map and gather
+// have the same expectation, however coarse the texels are.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dlm/charts.h"
+#include "dlm/deposit.h"
+#include "dlm/kernel.h"
+#include "dlm/tally.h"
+#include "tracer/transport/path_tracer.h"
+
+namespace lucarne {
+
+struct GatherScene {
+  const PhotonScene& scene;
+  const ChartSet& charts;
+  const TexelLayout& layout;
+  const TallyLayout& tallies;
+  const DirectionSet& directions;
+};
+
+/// Mean and standard error of luminance, lx.
+struct GatherValue {
+  double mean = 0, standardError = 0;
+};
+
+struct TexelGatherResult {
+  Rgbd irradiance{};                // lx
+  GatherValue luminance;            // of the irradiance
+  std::vector<GatherValue> byRank;  // of each map of the side, in the order of its member set
+};
+
+/// `samples` paths at texel (x, y) of a side, numbered from 0 under `seed`. At a texel that the kernel finds no surface
+/// for, zeros.
+TexelGatherResult gatherTexel(const GatherScene& scene, std::uint32_t side, int x, int y, const KernelOptions& kernel,
+                              LightPart part, std::uint64_t samples, std::uint64_t seed);
+
+}  // namespace lucarne
