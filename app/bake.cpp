@@ -7,7 +7,7 @@
 #include "app/bake_ranks.h"
 #include "app/bake_report.h"
 #include "app/bake_resume.h"
-#include "app/builtin_scene.h"
+#include "app/load_scene.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/memory.h"
@@ -18,19 +18,9 @@
 #include "distributed/build_info.h"
 #include "distributed/mpi_job.h"
 #include "distributed/probe_rays.h"
-#include "tracer/scene/gltf_packer.h"
-#include "tracer/scene/gltf_reader.h"
 
 namespace lucarne {
 namespace {
-
-PackedScene load(const BakeOptions& options) {
-  if (options.scene) return readPacked(*options.scene);
-  const auto bytes = builtinScene();
-  std::vector<std::uint8_t> glb = packGltf(*loadGltfSource(bytes, "the built-in scene"));
-  Scene scene = readGlb(glb, "the built-in scene");
-  return {std::move(glb), std::move(scene)};
-}
 
 /// Tallies and maps exist together while resolving, in one process. `processes` of them share the machine's memory.
 void checkMemory(const BakePlan& plan, int processes) {
@@ -107,7 +97,7 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
     check(options);
     if (!root) return;
     checkOutputs(options);
-    packed = load(options);
+    packed = loadScene(options);
   });
   if (mpi != nullptr) {
     shareScene(*mpi, packed);

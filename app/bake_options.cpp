@@ -34,12 +34,16 @@ void checkSettings(const BakeOptions& o) {
   if (!(o.kernel.width >= 0.5 && o.kernel.width <= 16)) throw UsageError("--kernel-width must be 0.5 to 16 texels");
 }
 
-void check(const BakeOptions& o) {
-  checkSettings(o);
+void checkMachine(const BakeOptions& o) {
   if (o.threads < 0 || o.threads > 1024) throw UsageError("--threads must be 0 (all) to 1024");
   // Embree passes over names that it does not know.
   constexpr std::array<std::string_view, 6> kSets = {"", "sse2", "sse4.2", "avx", "avx2", "avx512"};
   if (std::find(kSets.begin(), kSets.end(), o.isa) == kSets.end()) throw UsageError("--isa must be sse2, sse4.2, avx, avx2 or avx512, not '" + o.isa + "'");
+}
+
+void check(const BakeOptions& o) {
+  checkSettings(o);
+  checkMachine(o);
   if (o.output.empty()) throw UsageError("-o OUT.dlm is missing");
   if (!(o.checkpointSeconds >= 0) || !std::isfinite(o.checkpointSeconds)) throw UsageError("--checkpoint must be a time, or 0 for none");
   checkPiece(o);

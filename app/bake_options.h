@@ -49,6 +49,8 @@ struct BakeOptions {
 void check(const BakeOptions& options);
 /// Only those that decide what is baked, not where to.
 void checkSettings(const BakeOptions& options);
+/// Only those that decide how this machine works.
+void checkMachine(const BakeOptions& options);
 
 /// True when the output is a part.
 bool writesPart(const BakeOptions& options);

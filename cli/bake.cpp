@@ -8,13 +8,15 @@
 #include "base/units.h"
 #include "cli/choices.h"
 #include "cli/commands.h"
+#include "cli/layout_options.h"
 
 namespace lucarne {
 namespace {
 
 /// Numbers arrive as text, so that 20M and 1e9 work and nonsense is refused in our words.
 struct BakeTexts {
-  std::string scene, report, photons = "20M", texels = "1M", seed = "0", part, photonRange, checkpoint = "5m";
+  LayoutTexts layout;
+  std::string scene, report, seed = "0", part, photonRange, checkpoint = "5m";
 };
 
 /// The two numbers of "A/B" or "A:B".
@@ -39,23 +41,14 @@ void finishPiece(BakeOptions& options, const BakeTexts& texts, bool photonsGiven
 void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
   if (!texts.scene.empty()) options.scene = texts.scene;
   if (!texts.report.empty()) options.report = texts.report;
-  options.photons = parseCount("--photons", texts.photons);
-  options.texelBudget = parseCount("--texels", texts.texels);
+  finishLayout(options, texts.layout);
   options.seed = parseCount("--seed", texts.seed);
   options.checkpointSeconds = texts.checkpoint == "0" ? 0 : parseDuration("--checkpoint", texts.checkpoint);
   finishPiece(options, texts, photonsGiven);
 }
 
 void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
-  cmd.add_option("--photons", texts.photons, "photons to trace, e.g. 20M or 1e9; four times as many halve the noise")
-      ->capture_default_str();
-  cmd.add_option("--directions", o.directions,
-                 "size of the direction set: more show sharper highlights, cost memory and frame time")
-      ->capture_default_str();
-  cmd.add_option("--density", o.texelsPerMetre, "texels per metre: finer shadows, more noise for the same photons")
-      ->capture_default_str();
-  cmd.add_option("--texels", texts.texels, "texel budget; a scene that needs more is baked at a lower density")
-      ->capture_default_str();
+  addLayoutOptions(cmd, o, texts.layout);
   addChoice<KernelShape>(
       cmd, "--kernel", o.kernel.shape,
       {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
@@ -67,7 +60,6 @@ void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   addChoice<LightPart>(cmd, "--light", o.light,
                        {{"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
                        "all", "which light to store: all, direct or indirect");
-  cmd.add_flag("--keep-all-directions", o.keepAllDirections, "direction maps also for surfaces without a glossy lobe");
 }
 
 void addPieces(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
@@ -84,10 +76,7 @@ void addPieces(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
 }
 
 void addRunning(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
-  cmd.add_option("--threads", o.threads, "0: all; the result does not depend on it")->capture_default_str();
-  addChoice<ChannelType>(cmd, "--format", o.format.directional,
-                         {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
-                         "numbers of the directional maps on disk: half or float");
+  addMachineOptions(cmd, o);
   cmd.add_option("--report", texts.report,
                  "write what happened to a JSON file: rates, energy ledger, errors, what was left out");
   cmd.add_option("--isa", o.isa,

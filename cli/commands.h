@@ -11,6 +11,7 @@ using Action = std::function<void()>;
 
 void addBake(CLI::App& app, Action& action);
 void addMerge(CLI::App& app, Action& action);
+void addCheck(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);
 void addProbe(CLI::App& app, Action& action);
 void addRender(CLI::App& app, Action& action);  // with OpenGL only

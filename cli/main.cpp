@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   lucarne::Action action;
   lucarne::addBake(app, action);
   lucarne::addMerge(app, action);
+  lucarne::addCheck(app, action);
   lucarne::addInfo(app, action);
   lucarne::addProbe(app, action);
 #ifdef LUCARNE_HAS_PLAYER

@@ -83,6 +83,12 @@ class EmitterTable {
   bool hasSky() const { return !emitters_.empty() && emitters_.back().light == kSky; }
   /// Emitters that give nothing: names of lights with zero intensity. For warnings.
   const std::vector<std::string>& dark() const { return dark_; }
+  /// What each source gives, summing to totalFlux(): calls f(triangle, light, flux in lm, mean over channels), with
+  /// kNone for the one that it is not. A triangle comes once for each of its pieces.
+  template <class F>
+  void forEachSource(F&& f) const {
+    for (const Emitter& e : emitters_) f(e.face == kNone ? kNone : faces_[e.face].triangle, e.light, e.flux);
+  }
 
  private:
   void addTriangle(std::uint32_t triangle);

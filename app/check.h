@@ -1,0 +1,20 @@
+// The preflight: what a bake would model, light, need and take, told before it is started. docs/check.md says what each
+// section means.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/bake_options.h"
+
+namespace lucarne {
+
+/// Reads the scene, lays it out and traces photons for about half a second; writes nothing. Failures as in bake():
+/// UsageError, InputError, or Error(outOfResource) for a layout that no budget allows. Keys: kind, program, scene,
+/// modelled, left_out, lights, uv, layout, resources, time, settings, warnings [{id, text}].
+nlohmann::json checkScene(const BakeOptions& options);
+
+/// The same for people: aligned sections, warnings last.
+std::string checkText(const nlohmann::json& checked);
+
+}  // namespace lucarne

@@ -1,0 +1,146 @@
+#include "app/check_layout.h"
+
+#include <algorithm>
+
+#include "app/bake_scene.h"
+#include "base/memory.h"
+#include "base/units.h"
+
+namespace lucarne {
+namespace {
+
+/// Texels that hold no surface get no light of their own.
+std::uint64_t coveredTexels(const BakePlan& plan) {
+  std::uint64_t covered = 0;
+  for (const TallySide& side : plan.tallies.sides) {
+    const std::uint64_t first = plan.layout.charts[side.chart].firstTexel;
+    for (std::uint64_t t = 0; t < side.texelCount(); ++t) covered += plan.layout.area[first + t] > 0 ? 1 : 0;
+  }
+  return covered;
+}
+
+/// Metres; of the square that is as large as the mean texel.
+double meanTexel(const Scene& scene, const BakePlan& plan) {
+  double area = 0;
+  for (const Chart& c : plan.charts.charts) area += c.size.x * c.size.y;
+  const auto texels = static_cast<double>(plan.layout.texelCount);
+  return texels > 0 ? scene.frame.scale * std::sqrt(area / texels) : 0;
+}
+
+nlohmann::json largestChart(const Scene& scene, const BakePlan& plan) {
+  const auto& charts = plan.layout.charts;
+  const auto at = std::max_element(charts.begin(), charts.end(), [](const ChartLayout& a, const ChartLayout& b) {
+    return a.texelCount() < b.texelCount();
+  });
+  if (at == charts.end()) return nullptr;
+  const Chart& chart = plan.charts.charts[static_cast<std::size_t>(at - charts.begin())];
+  return {{"width", at->width}, {"height", at->height}, {"material", scene.materials[chart.material].name}};
+}
+
+/// Less surface than a tenth of the texel that the density asks for.
+std::size_t tinyCharts(const Scene& scene, const BakePlan& plan) {
+  const double texel = 1 / (plan.layout.texelsPerMetre * scene.frame.scale);
+  return static_cast<std::size_t>(std::count_if(plan.charts.charts.begin(), plan.charts.charts.end(),
+                                                [&](const Chart& c) { return c.area < 0.1 * texel * texel; }));
+}
+
+void warnOfLayout(const CheckInput& in, std::size_t tiny, CheckWarnings& warnings) {
+  const TexelLayout& layout = in.plan.layout;
+  if (layout.thinned)
+    warnings.add("thinned", "density lowered from " + formatNumber(in.options.texelsPerMetre) + " to " +
+                                formatNumber(layout.texelsPerMetre) + " texels/m by the budget of " +
+                                formatCount(in.options.texelBudget) +
+                                " texels: raise --texels, and --photons with it; or is the scene not in metres?");
+  if (2 * tiny > layout.charts.size())
+    warnings.add("tiny_charts", formatCount(tiny) + " of " + formatCount(layout.charts.size()) +
+                                    " charts are much smaller than a texel and get one value each: raise --density" +
+                                    (layout.thinned ? " and --texels" : ""));
+}
+
+/// Texels of a page take 20 bytes (r, g, b, photons, error) a side in the irradiance and three numbers a direction in
+/// the directional maps, each with a gutter of one texel. Empty space of pages is left out: it compresses to nothing.
+std::uint64_t dlmBytes(const CheckInput& in) {
+  const std::uint64_t number = in.options.format.directional == ChannelType::half ? 2 : 4;
+  std::uint64_t bytes = in.glbBytes + 3 * 2 * sizeof(float) * in.scene().triangles.size();  // atlas coordinates
+  for (const TallySide& side : in.plan.tallies.sides) {
+    const std::uint64_t texels =
+        static_cast<std::uint64_t>(side.width + 2) * static_cast<std::uint64_t>(side.height + 2);
+    bytes += texels * (20 + 3 * number * in.plan.tallies.membersOf(side).members.size());
+  }
+  return bytes;
+}
+
+std::uint64_t mapBytes(const TallyLayout& tallies) {
+  std::uint64_t bytes = 0;
+  for (const TallySide& side : tallies.sides)
+    bytes += side.texelCount() * (20 + sizeof(Rgb) * tallies.membersOf(side).members.size());
+  return bytes;
+}
+
+std::uint64_t freeDiskBytes() {
+  std::error_code failed;
+  const auto space = std::filesystem::space(".", failed);
+  return failed ? 0 : space.available;
+}
+
+struct Needs {
+  std::uint64_t maps, memory, disk;  // maps: tallies and maps, what a bake asks for before it starts
+};
+
+void warnOfResources(const Needs& needs, std::uint64_t memory, std::uint64_t disk, CheckWarnings& warnings) {
+  if (needs.maps > memory) {
+    warnings.add("memory", "the bake would not start: light maps need " + formatBytes(needs.maps) + " and " +
+                               formatBytes(memory) + " are free; lower --density, --texels or --directions");
+  } else if (needs.memory > memory) {
+    warnings.add("memory", "the bake may run out of memory: it takes about " + formatBytes(needs.memory) + " and " +
+                               formatBytes(memory) + " are free; lower --density, --texels or --directions");
+  }
+  if (needs.disk > disk)
+    warnings.add("disk", "light maps and saved states take up to " + formatBytes(needs.disk) + " and " +
+                             formatBytes(disk) + " are free in this folder");
+}
+
+}  // namespace
+
+std::uint64_t tracingBytes(const CheckInput& in) {
+  const std::uint64_t bytes = in.plan.tallies.bytes();
+  const PhotonRunOptions run = runOptions(in.options);
+  const std::uint64_t all = bytes * static_cast<std::uint64_t>(run.threads);
+  return all <= run.privateTallyBytes ? all : bytes;
+}
+
+nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
+  const BakePlan& plan = in.plan;
+  const auto directional = [&](const TallySide& s) { return !plan.tallies.membersOf(s).members.empty(); };
+  const std::size_t tiny = tinyCharts(in.scene(), plan);
+  warnOfLayout(in, tiny, warnings);
+  return {{"charts", plan.charts.charts.size()},
+          {"chart_sides", plan.tallies.sides.size()},
+          {"sides_with_directions", std::count_if(plan.tallies.sides.begin(), plan.tallies.sides.end(), directional)},
+          {"directions", in.options.directions},
+          {"texels", plan.tallies.texels},
+          {"covered_texels", coveredTexels(plan)},
+          {"texels_per_metre", in.options.texelsPerMetre},
+          {"texels_per_metre_used", plan.layout.texelsPerMetre},
+          {"thinned", plan.layout.thinned},
+          {"mean_texel_mm", 1000 * meanTexel(in.scene(), plan)},
+          {"largest_chart", largestChart(in.scene(), plan)},
+          {"charts_below_a_texel", tiny}};
+}
+
+nlohmann::json checkResources(const CheckInput& in, CheckWarnings& warnings) {
+  const std::uint64_t tallies = in.plan.tallies.bytes(), maps = tallies + memoryOfMaps(tallies);
+  const std::uint64_t peak = in.peakBytes + std::max(tracingBytes(in), maps);
+  const std::uint64_t dlm = dlmBytes(in), states = 3 * (tallies + in.glbBytes);
+  const std::uint64_t memory = availableMemoryBytes(), disk = freeDiskBytes();
+  warnOfResources({maps, peak, dlm + states}, memory, disk, warnings);
+  return {{"tally_bytes", tallies},
+          {"expected_peak_memory_bytes", peak},
+          {"free_memory_bytes", memory},
+          {"map_bytes", mapBytes(in.plan.tallies)},
+          {"dlm_bytes", dlm},
+          {"checkpoint_bytes", states},
+          {"free_disk_bytes", disk}};
+}
+
+}  // namespace lucarne

@@ -1,0 +1,22 @@
+// Sections of a check that tell what the light maps will be and what they take: layout, resources.
+#pragma once
+
+#include "app/check_input.h"
+
+namespace lucarne {
+
+/// charts, chart_sides, sides_with_directions, directions, texels (of all chart sides), covered_texels (with surface in
+/// them), texels_per_metre asked for and _used, thinned (the budget lowered it), mean_texel_mm, largest_chart {width,
+/// height, material}, charts_below_a_texel.
+nlohmann::json checkLayout(const CheckInput& input, CheckWarnings& warnings);
+
+/// Bytes: tally_bytes; expected_peak_memory_bytes = peak of this check without tallies + the larger of tallies of all
+/// threads while tracing and tallies + memoryOfMaps() while making maps; free_memory_bytes; at most map_bytes in memory
+/// and dlm_bytes on disk before compression; checkpoint_bytes (two states and one being written); free_disk_bytes of
+/// the folder it is run in.
+nlohmann::json checkResources(const CheckInput& input, CheckWarnings& warnings);
+
+/// Of tallies while tracing: threads have their own while all together are small.
+std::uint64_t tracingBytes(const CheckInput& input);
+
+}  // namespace lucarne

@@ -1,0 +1,188 @@
+// The text of a check, made from its JSON, so that both say the same.
+#include <algorithm>
+#include <cmath>
+
+#include "app/check.h"
+#include "app/check_input.h"
+#include "base/units.h"
+
+namespace lucarne {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kIndent = 12, kWidth = 110;
+
+/// Sections "title       first line" with the following lines under the first.
+class Sections {
+ public:
+  void begin(const std::string& title) { title_ = title; }
+  /// Breaks at spaces; what follows a break is indented by `hang` more.
+  void line(const std::string& text, std::size_t hang = 0) {
+    std::string rest = text;
+    std::size_t indent = 0;
+    while (indent + rest.size() > kWidth - kIndent) {
+      const std::size_t at = rest.rfind(' ', kWidth - kIndent - indent);
+      if (at == std::string::npos || at == 0) break;
+      put(std::string(indent, ' ') + rest.substr(0, at));
+      rest = rest.substr(at + 1);
+      indent = hang;
+    }
+    put(std::string(indent, ' ') + rest);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void put(const std::string& s) {
+    text_ += title_ + std::string(kIndent - title_.size(), ' ') + s + "\n";
+    title_.clear();
+  }
+  std::string title_, text_;
+};
+
+std::string counted(const Json& count, const std::string& what) {
+  const auto n = count.get<std::uint64_t>();
+  return formatCount(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+std::string number(const Json& value) { return formatNumber(value.get<double>()); }
+
+/// "535", "59.1k": three digits of what is large.
+std::string amount(double value) {
+  constexpr double kMost = 1e18;
+  if (value < 9999.5 || value > kMost) return formatNumber(value);
+  return formatCount(static_cast<std::uint64_t>(value + 0.5));
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
+}
+
+void writeScene(const Json& scene, Sections& out) {
+  out.begin("scene");
+  const Json& e = scene["extent_m"];
+  out.line(scene["name"].get<std::string>() + ": " + counted(scene["triangles"], "triangle") + ", " +
+           counted(scene["materials"], "material") + ", " + number(e[0]) + " x " + number(e[1]) + " x " + number(e[2]) +
+           " m");
+  if (scene["degenerate_triangles"] > 0) out.line(counted(scene["degenerate_triangles"], "triangle") + " without area");
+}
+
+void writeFeatures(const Json& checked, Sections& out) {
+  out.begin("modelled");
+  for (const char* of : {"triangles", "lights", "materials"}) {
+    std::string text;
+    for (const Json& f : checked["modelled"])
+      if (f["of"] == of)
+        text += (text.empty() ? "" : ", ") + f["feature"].get<std::string>() + " " +
+                formatCount(f["count"].get<std::uint64_t>());
+    if (!text.empty()) out.line(std::string(of) + ": " + text, 2);
+  }
+  if (checked["modelled"].empty()) out.line("plain opaque surfaces");
+  out.begin("left out");
+  for (const Json& what : checked["left_out"]) out.line(what.get<std::string>(), 2);
+  if (checked["left_out"].empty()) out.line("nothing");
+}
+
+std::string describe(const Json& source) {
+  const Json& i = source["intensity"];
+  const double value = luminance(Rgbd{i[0].get<double>(), i[1].get<double>(), i[2].get<double>()});
+  const std::string strength = amount(value) + " " + source["unit"].get<std::string>();
+  const std::string name = " " + quotedName(source["name"].get<std::string>()) + ", ";
+  if (source["kind"] != "emissive") return source["kind"].get<std::string>() + name + strength;
+  return "emissive" + name + (source["textured"].get<bool>() ? "at most " : "") + strength + " over " +
+         number(source["area_m2"]) + " m²";
+}
+
+void writeLights(const Json& lights, Sections& out) {
+  out.begin("lights");
+  const Json& sources = lights["sources"];
+  if (sources.empty()) return out.line("none");
+  out.line(amount(lights["luminous_flux_lm"].get<double>()) + " lm of " + counted(sources.size(), "source"));
+  constexpr std::size_t kMost = 12;
+  double rest = 0;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const auto flux = sources[i]["luminous_flux_lm"].get<double>();
+    if (i >= kMost) {
+      rest += flux;
+      continue;
+    }
+    out.line(padded(amount(flux), 8) + " lm " + padded(formatPercent(sources[i]["share"].get<double>()), 7) + "  " +
+                 describe(sources[i]),
+             21);
+  }
+  if (sources.size() > kMost)
+    out.line(padded(amount(rest), 8) + " lm of " + std::to_string(sources.size() - kMost) + " weaker ones");
+}
+
+void writeUv(const Json& uv, Sections& out) {
+  out.begin("uv");
+  if (!uv["present"].get<bool>()) return out.line("no TEXCOORD_1; not needed, the bake makes charts of its own");
+  const auto area = uv["area"].get<double>();
+  std::string text = "TEXCOORD_1 " + std::string(uv["inside_unit_square"].get<bool>() ? "inside" : "leaves") +
+                     " the unit square, area " + number(uv["area"]) + (area > 1 ? " (overlaps)" : "");
+  if (uv["triangles_without_area"] > 0) text += ", " + counted(uv["triangles_without_area"], "triangle") + " without";
+  out.line(text + "; not used, the bake makes charts of its own", 2);
+}
+
+void writeLayout(const Json& layout, Sections& out) {
+  out.begin("layout");
+  std::string text = counted(layout["charts"], "chart") + " of " + counted(layout["texels"], "texel") + " at " +
+                     number(layout["texels_per_metre_used"]) + " texels/m";
+  if (layout["thinned"].get<bool>()) text += " (" + number(layout["texels_per_metre"]) + " asked for)";
+  text += ", " + number(layout["mean_texel_mm"]) + " mm a texel on average";
+  out.line(text, 2);
+  if (const Json& largest = layout["largest_chart"]; !largest.is_null())
+    out.line("largest chart " + largest["width"].dump() + " x " + largest["height"].dump() + " texels, of " +
+             quotedName(largest["material"].get<std::string>()));
+  const auto sides = layout["chart_sides"].get<std::uint64_t>(),
+             glossy = layout["sides_with_directions"].get<std::uint64_t>();
+  out.line(counted(glossy, "side") + " with maps by direction (" + counted(layout["directions"], "direction") + "), " +
+           formatCount(sides - glossy) + " with irradiance alone");
+}
+
+void writeResources(const Json& r, Sections& out) {
+  const auto bytes = [&r](const char* key) { return formatBytes(r[key].get<std::uint64_t>()); };
+  out.begin("memory");
+  out.line("about " + bytes("expected_peak_memory_bytes") + ", of it " + bytes("tally_bytes") + " of tallies; " +
+           bytes("free_memory_bytes") + " are free");
+  out.begin("disk");
+  out.line("light maps at most " + bytes("dlm_bytes") + ", saved states at most " + bytes("checkpoint_bytes") + "; " +
+           bytes("free_disk_bytes") + " are free here");
+}
+
+void writeTime(const Json& time, Sections& out) {
+  out.begin("time");
+  const auto photons = time["photons"].get<std::uint64_t>();
+  if (!time.contains("seconds")) return out.line("nothing to trace");
+  out.line("about " + formatDuration(time["seconds"].get<double>()) + " for " + counted(photons, "photon") + " on " +
+               counted(time["threads"], "thread") + " (" +
+               formatRate(time["photons_per_second"].get<double>(), "photons") +
+               (time["stored"].get<bool>() ? "" : " of one, nothing stored for want of memory") + ", " +
+               number(time["rays_per_photon"]) + " rays a photon), and " +
+               formatDuration(time["seconds_of_setup"].get<double>()) + " before it",
+           2);
+  out.line("photons per texel " + amount(time["photons_per_texel"].get<double>()) + "; of the light " +
+               formatPercent(time["missed"].get<double>()) + " meets no surface, " +
+               formatPercent(time["lost"].get<double>()) + " is lost on black backs, " +
+               formatPercent(time["escaped"].get<double>()) + " leaves the scene in the end",
+           2);
+}
+
+}  // namespace
+
+std::string checkText(const nlohmann::json& checked) {
+  Sections out;
+  writeScene(checked["scene"], out);
+  writeFeatures(checked, out);
+  writeLights(checked["lights"], out);
+  writeUv(checked["uv"], out);
+  writeLayout(checked["layout"], out);
+  writeResources(checked["resources"], out);
+  writeTime(checked["time"], out);
+  out.begin("warnings");
+  for (const Json& w : checked["warnings"]) out.line("- " + w["text"].get<std::string>(), 2);
+  if (checked["warnings"].empty()) out.line("none");
+  return out.text();
+}
+
+}  // namespace lucarne

@@ -1,0 +1,137 @@
+#include "app/check_time.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/bake_scene.h"
+#include "app/check_layout.h"
+#include "base/float_mode.h"
+#include "base/memory.h"
+#include "base/units.h"
+
+namespace lucarne {
+namespace {
+
+constexpr double kBareSeconds = 0.1, kStoredSeconds = 0.3;
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Stores nothing; counts the photons that no lit side saw.
+class WasteSink {
+ public:
+  explicit WasteSink(const Ledger& ledger) : ledger_(ledger) {}
+  void hit(const PhotonHit&) { ++hits; }
+  void endPhoton() {
+    if (hits == hitsBefore_) ++(ledger_.escaped == escapedBefore_ ? lost : missed);
+    hitsBefore_ = hits;
+    escapedBefore_ = ledger_.escaped;
+  }
+  std::uint64_t hits = 0, missed = 0, lost = 0;
+
+ private:
+  const Ledger& ledger_;
+  FluxSum escapedBefore_;
+  std::uint64_t hitsBefore_ = 0;
+};
+
+double sumOf(const FluxSum& f) { return static_cast<double>(f.units[0] + f.units[1] + f.units[2]); }
+
+/// What a few photons told.
+struct BareSample {
+  double perSecond = 0, rays = 0, hits = 0;  // of one thread; a photon
+  double missed = 0, lost = 0, escaped = 0;  // fractions
+};
+
+/// The first photons of the bake's seed, on one thread without storing.
+BareSample traceBare(const CheckInput& in) {
+  const FlushDenormals mode;
+  constexpr std::uint64_t kStep = 512;
+  Ledger ledger;
+  WasteSink sink(ledger);
+  const auto start = std::chrono::steady_clock::now();
+  double seconds = 0;
+  while (seconds < kBareSeconds) {
+    tracePhotons(in.photonScene, {ledger.photons, ledger.photons + kStep}, in.options.seed, {}, sink, ledger);
+    seconds = secondsSince(start);
+  }
+  const auto n = static_cast<double>(ledger.photons), emitted = sumOf(ledger.emitted);
+  return {n / seconds,
+          static_cast<double>(ledger.rays) / n,
+          static_cast<double>(sink.hits) / n,
+          static_cast<double>(sink.missed) / n,
+          static_cast<double>(sink.lost) / n,
+          emitted > 0 ? sumOf(ledger.escaped) / emitted : 0};
+}
+
+/// Photons a second of all threads, stored as a bake stores them. The first fill caches and touch the pages of the
+/// tallies; the clock starts after them.
+double traceStored(const CheckInput& in) {
+  const PhotonRunOptions options = runOptions(in.options);
+  Tallies tallies(in.plan.tallies);
+  const TexelMap map(in.scene(), in.plan.charts, in.plan.layout, in.plan.tallies);
+  PhotonRun run({in.photonScene, map, in.plan.tallies, in.plan.directions}, options, tallies);
+  const auto goOn = [](const RunProgress&) { return true; };
+  constexpr int kMostChunks = 64;
+  const std::uint64_t step = 4096 * static_cast<std::uint64_t>(std::min(options.threads, kMostChunks));
+  std::uint64_t done = run.trace({0, step}, goOn), timed = 0;
+  const auto start = std::chrono::steady_clock::now();
+  double seconds = 0;
+  while (seconds < kStoredSeconds) {
+    timed += run.trace({done + timed, done + timed + step}, goOn);
+    seconds = secondsSince(start);
+  }
+  return static_cast<double>(timed) / seconds;
+}
+
+void warnOfWaste(const CheckInput& in, const BareSample& sample, CheckWarnings& warnings) {
+  constexpr double kMostMissed = 0.5, kMostLost = 0.05;
+  if (sample.missed > kMostMissed) {
+    const auto sun = [](const Light& l) { return l.kind == LightKind::directional; };
+    const bool suns = std::any_of(in.scene().lights.begin(), in.scene().lights.end(), sun);
+    warnings.add("missed", formatPercent(sample.missed) + " of the light leaves the scene without meeting a surface; " +
+                               (suns ? "directional lights shine on all of its bounding sphere, so remove far-off parts"
+                                     : "point the lights at the scene, or close it") +
+                               ", or trace more photons");
+  }
+  if (sample.lost > kMostLost)
+    warnings.add("lost", formatPercent(sample.lost) +
+                             " of the light falls on backs of one-sided surfaces, which are black: is a lamp inside a "
+                             "closed shape, or are surfaces turned inside out? Make those materials double-sided");
+}
+
+void warnOfNoise(double perTexel, CheckWarnings& warnings) {
+  constexpr double kFew = 30;
+  if (perTexel < kFew)
+    warnings.add("few_photons", "only " + formatNumber(perTexel) +
+                                    " photons fall into a texel, on average: trace more, or lower --density");
+}
+
+}  // namespace
+
+nlohmann::json checkTime(const CheckInput& in, const nlohmann::json& layout, CheckWarnings& warnings) {
+  const auto photons = static_cast<double>(in.options.photons);
+  nlohmann::json json = {
+      {"seconds_of_setup", in.secondsOfSetup}, {"threads", threadCount(in.options)}, {"photons", in.options.photons}};
+  if (in.photonScene.emitters().empty()) return json;
+  const BareSample bare = traceBare(in);
+  const bool stored = 2 * tracingBytes(in) <= availableMemoryBytes();
+  const double rate = stored ? traceStored(in) : bare.perSecond;
+  const auto covered = layout["covered_texels"].get<double>();
+  const double perTexel = covered > 0 ? photons * bare.hits / covered : 0;
+  warnOfWaste(in, bare, warnings);
+  warnOfNoise(perTexel, warnings);
+  json.update({{"seconds", photons / rate},
+               {"photons_per_second", rate},
+               {"stored", stored},
+               {"bare_photons_per_second", bare.perSecond},
+               {"rays_per_photon", bare.rays},
+               {"photons_per_texel", perTexel},
+               {"missed", bare.missed},
+               {"lost", bare.lost},
+               {"escaped", bare.escaped}});
+  return json;
+}
+
+}  // namespace lucarne

@@ -1,0 +1,33 @@
+#include "cli/layout_options.h"
+
+#include "base/units.h"
+#include "cli/choices.h"
+
+namespace lucarne {
+
+void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts) {
+  cmd.add_option("--photons", texts.photons, "photons to trace, e.g. 20M or 1e9; four times as many halve the noise")
+      ->capture_default_str();
+  cmd.add_option("--directions", o.directions,
+                 "size of the direction set: more show sharper highlights, cost memory and frame time")
+      ->capture_default_str();
+  cmd.add_option("--density", o.texelsPerMetre, "texels per metre: finer shadows, more noise for the same photons")
+      ->capture_default_str();
+  cmd.add_option("--texels", texts.texels, "texel budget; a scene that needs more is baked at a lower density")
+      ->capture_default_str();
+  cmd.add_flag("--keep-all-directions", o.keepAllDirections, "direction maps also for surfaces without a glossy lobe");
+}
+
+void finishLayout(BakeOptions& o, const LayoutTexts& texts) {
+  o.photons = parseCount("--photons", texts.photons);
+  o.texelBudget = parseCount("--texels", texts.texels);
+}
+
+void addMachineOptions(CLI::App& cmd, BakeOptions& o) {
+  cmd.add_option("--threads", o.threads, "0: all; the result does not depend on it")->capture_default_str();
+  addChoice<ChannelType>(cmd, "--format", o.format.directional,
+                         {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
+                         "numbers of the directional maps on disk: half or float");
+}
+
+}  // namespace lucarne

@@ -1,0 +1,24 @@
+// Options that several commands share with bake: what is laid out and traced, and how this machine works.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "app/bake_options.h"
+
+namespace lucarne {
+
+/// Numbers arrive as text, so that 20M and 1e9 work and nonsense is refused in our words.
+struct LayoutTexts {
+  std::string photons = "20M", texels = "1M";
+};
+
+/// --photons, --directions, --density, --texels, --keep-all-directions. `o` and `texts` must outlive the parsing.
+void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts);
+/// After parsing: UsageError for texts that are no numbers.
+void finishLayout(BakeOptions& o, const LayoutTexts& texts);
+
+/// --threads and --format.
+void addMachineOptions(CLI::App& cmd, BakeOptions& o);
+
+}  // namespace lucarne
