@@ -91,9 +91,10 @@ nlohmann::json checkSize(const CheckInput& input, CheckWarnings& warnings) {
   const Scene& scene = input.scene();
   const Vec3d extent = extentInMetres(scene);
   const double largest = maxComponent(extent);
-  constexpr double kSmall = 0.01, kLarge = 10'000;  // metres
+  constexpr double kSmall = 0.01, kLarge = 1000;  // metres; a room in millimetres is some kilometres
   if (largest < kSmall || largest > kLarge)
-    warnings.add("units", "the scene is " + formatNumber(largest) + " m across: is it in metres, as glTF is?");
+    warnings.add("units",
+                 "the scene is " + formatNumber(largest) + " m across: is it in other units? glTF is in metres");
   return {{"name", sceneName(input.options)},
           {"triangles", scene.triangles.size()},
           {"degenerate_triangles", countTriangles(scene, [&](auto t) { return degenerate(scene, t); })},

@@ -3,6 +3,7 @@
 namespace lucarne {
 
 std::string quotedName(const std::string& name) {
+  if (name.empty()) return "(unnamed)";
   constexpr std::size_t kMost = 60;
   std::size_t end = std::min(kMost, name.size());
   while (end > 0 && end < name.size() && (static_cast<unsigned char>(name[end]) & 0xc0u) == 0x80u) --end;

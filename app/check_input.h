@@ -20,7 +20,8 @@ struct CheckInput {
   const Scene& scene() const { return photonScene.scene(); }
 };
 
-/// 'name', cut where it is very long; control characters, which a terminal would obey, become question marks.
+/// 'name' or (unnamed), cut where it is very long; control characters, which a terminal would obey, become question
+/// marks.
 std::string quotedName(const std::string& name);
 
 /// Advice, in the order in which it was found. An id is stable; its text is for people.

@@ -37,35 +37,53 @@ nlohmann::json largestChart(const Scene& scene, const BakePlan& plan) {
   return {{"width", at->width}, {"height", at->height}, {"material", scene.materials[chart.material].name}};
 }
 
-/// Less surface than a tenth of the texel that the density asks for.
-std::size_t tinyCharts(const Scene& scene, const BakePlan& plan) {
+struct TinyCharts {
+  std::size_t count = 0;
+  double areaShare = 0;  // of all surface
+};
+
+/// Charts with less surface than a tenth of the texel that the density asks for.
+TinyCharts tinyCharts(const Scene& scene, const BakePlan& plan) {
   const double texel = 1 / (plan.layout.texelsPerMetre * scene.frame.scale);
-  return static_cast<std::size_t>(std::count_if(plan.charts.charts.begin(), plan.charts.charts.end(),
-                                                [&](const Chart& c) { return c.area < 0.1 * texel * texel; }));
+  TinyCharts tiny;
+  double all = 0;
+  for (const Chart& c : plan.charts.charts) {
+    all += c.area;
+    if (c.area >= 0.1 * texel * texel) continue;
+    ++tiny.count;
+    tiny.areaShare += c.area;
+  }
+  tiny.areaShare /= all > 0 ? all : 1;
+  return tiny;
 }
 
-void warnOfLayout(const CheckInput& in, std::size_t tiny, CheckWarnings& warnings) {
+void warnOfLayout(const CheckInput& in, const TinyCharts& tiny, CheckWarnings& warnings) {
   const TexelLayout& layout = in.plan.layout;
   if (layout.thinned)
     warnings.add("thinned", "density lowered from " + formatNumber(in.options.texelsPerMetre) + " to " +
                                 formatNumber(layout.texelsPerMetre) + " texels/m by the budget of " +
                                 formatCount(in.options.texelBudget) +
                                 " texels: raise --texels, and --photons with it; or is the scene not in metres?");
-  if (2 * tiny > layout.charts.size())
-    warnings.add("tiny_charts", formatCount(tiny) + " of " + formatCount(layout.charts.size()) +
-                                    " charts are much smaller than a texel and get one value each: raise --density" +
-                                    (layout.thinned ? " and --texels" : ""));
+  if (2 * tiny.count > layout.charts.size())
+    warnings.add("tiny_charts",
+                 formatCount(tiny.count) + " of " + formatCount(layout.charts.size()) +
+                     " charts are much smaller than a texel and get one value each (" + formatPercent(tiny.areaShare) +
+                     " of all surface): if they matter, raise --density" + (layout.thinned ? " and --texels" : ""));
 }
 
 /// Texels of a page take 20 bytes (r, g, b, photons, error) a side in the irradiance and three numbers a direction in
-/// the directional maps, each with a gutter of one texel. Empty space of pages is left out: it compresses to nothing.
+/// the directional maps, each with a gutter of one texel. Empty space of pages is left out: it compresses to little.
 std::uint64_t dlmBytes(const CheckInput& in) {
+  constexpr std::uint64_t kLayerBytes = 4096, kSideBytes = 200,
+                          kMapBytes = 16;  // of headers; of entries in the manifest
   const std::uint64_t number = in.options.format.directional == ChannelType::half ? 2 : 4;
-  std::uint64_t bytes = in.glbBytes + 3 * 2 * sizeof(float) * in.scene().triangles.size();  // atlas coordinates
+  const std::uint64_t atlasCoordinates = 3 * 2 * sizeof(float) * in.scene().triangles.size();
+  const std::uint64_t layers = 5 + static_cast<std::uint64_t>(in.options.directions);
+  std::uint64_t bytes = in.glbBytes + atlasCoordinates + kLayerBytes * layers;
   for (const TallySide& side : in.plan.tallies.sides) {
-    const std::uint64_t texels =
-        static_cast<std::uint64_t>(side.width + 2) * static_cast<std::uint64_t>(side.height + 2);
-    bytes += texels * (20 + 3 * number * in.plan.tallies.membersOf(side).members.size());
+    const std::uint64_t maps = in.plan.tallies.membersOf(side).members.size();
+    const auto width = static_cast<std::uint64_t>(side.width + 2), height = static_cast<std::uint64_t>(side.height + 2);
+    bytes += width * height * (20 + 3 * number * maps) + kSideBytes + kMapBytes * maps;
   }
   return bytes;
 }
@@ -112,7 +130,7 @@ std::uint64_t tracingBytes(const CheckInput& in) {
 nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
   const BakePlan& plan = in.plan;
   const auto directional = [&](const TallySide& s) { return !plan.tallies.membersOf(s).members.empty(); };
-  const std::size_t tiny = tinyCharts(in.scene(), plan);
+  const TinyCharts tiny = tinyCharts(in.scene(), plan);
   warnOfLayout(in, tiny, warnings);
   return {{"charts", plan.charts.charts.size()},
           {"chart_sides", plan.tallies.sides.size()},
@@ -125,7 +143,8 @@ nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
           {"thinned", plan.layout.thinned},
           {"mean_texel_mm", 1000 * meanTexel(in.scene(), plan)},
           {"largest_chart", largestChart(in.scene(), plan)},
-          {"charts_below_a_texel", tiny}};
+          {"tiny_charts", tiny.count},
+          {"tiny_charts_area_share", tiny.areaShare}};
 }
 
 nlohmann::json checkResources(const CheckInput& in, CheckWarnings& warnings) {

@@ -7,7 +7,7 @@ namespace lucarne {
 
 /// charts, chart_sides, sides_with_directions, directions, texels (of all chart sides), covered_texels (with surface in
 /// them), texels_per_metre asked for and _used, thinned (the budget lowered it), mean_texel_mm, largest_chart {width,
-/// height, material}, charts_below_a_texel.
+/// height, material}, tiny_charts (with less surface than a tenth of a texel) and tiny_charts_area_share (of all).
 nlohmann::json checkLayout(const CheckInput& input, CheckWarnings& warnings);
 
 /// Bytes: tally_bytes; expected_peak_memory_bytes = peak of this check without tallies + the larger of tallies of all

@@ -146,8 +146,9 @@ void warnOfUnits(const std::vector<Source>& sources, double punctual, double emi
   const double ratio = std::max(punctual / emissive, emissive / punctual);
   if (ratio <= kUnlikelyRatio) return;
   warnings.add("mixed_units",
-               std::string(punctual > emissive ? "lights give " : "emissive materials give ") + formatNumber(ratio) +
-                   " times the light of " + (punctual > emissive ? "emissive materials" : "lights") +
+               std::string(punctual > emissive ? "lights give " : "emissive materials give ") +
+                   formatCount(static_cast<std::uint64_t>(std::min(ratio, 1e18))) + " times the light of " +
+                   (punctual > emissive ? "emissive materials" : "lights") +
                    ", which will not be seen: is KHR_materials_emissive_strength (cd/m²) missing, or are the lights in "
                    "watts? glTF has candela and lux");
 }

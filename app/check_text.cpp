@@ -54,6 +54,9 @@ std::string amount(double value) {
   return formatCount(static_cast<std::uint64_t>(value + 0.5));
 }
 
+/// Of millimetres.
+std::string lengthOf(double mm) { return mm < 1000 ? formatNumber(mm) + " mm" : formatNumber(mm / 1000) + " m"; }
+
 std::string padded(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }
@@ -126,10 +129,11 @@ void writeUv(const Json& uv, Sections& out) {
 
 void writeLayout(const Json& layout, Sections& out) {
   out.begin("layout");
-  std::string text = counted(layout["charts"], "chart") + " of " + counted(layout["texels"], "texel") + " at " +
-                     number(layout["texels_per_metre_used"]) + " texels/m";
+  std::string text = counted(layout["charts"], "chart") + ", " + counted(layout["texels"], "texel") + " on " +
+                     counted(layout["chart_sides"], "side") + " at " + number(layout["texels_per_metre_used"]) +
+                     " texels/m";
   if (layout["thinned"].get<bool>()) text += " (" + number(layout["texels_per_metre"]) + " asked for)";
-  text += ", " + number(layout["mean_texel_mm"]) + " mm a texel on average";
+  text += ", " + lengthOf(layout["mean_texel_mm"].get<double>()) + " a texel on average";
   out.line(text, 2);
   if (const Json& largest = layout["largest_chart"]; !largest.is_null())
     out.line("largest chart " + largest["width"].dump() + " x " + largest["height"].dump() + " texels, of " +
@@ -146,7 +150,7 @@ void writeResources(const Json& r, Sections& out) {
   out.line("about " + bytes("expected_peak_memory_bytes") + ", of it " + bytes("tally_bytes") + " of tallies; " +
            bytes("free_memory_bytes") + " are free");
   out.begin("disk");
-  out.line("light maps at most " + bytes("dlm_bytes") + ", saved states at most " + bytes("checkpoint_bytes") + "; " +
+  out.line("light maps up to " + bytes("dlm_bytes") + ", saved states up to " + bytes("checkpoint_bytes") + "; " +
            bytes("free_disk_bytes") + " are free here");
 }
 
@@ -155,17 +159,16 @@ void writeTime(const Json& time, Sections& out) {
   const auto photons = time["photons"].get<std::uint64_t>();
   if (!time.contains("seconds")) return out.line("nothing to trace");
   out.line("about " + formatDuration(time["seconds"].get<double>()) + " for " + counted(photons, "photon") + " on " +
-               counted(time["threads"], "thread") + " (" +
+               counted(time["threads"], "thread") + ": " +
                formatRate(time["photons_per_second"].get<double>(), "photons") +
-               (time["stored"].get<bool>() ? "" : " of one, nothing stored for want of memory") + ", " +
-               number(time["rays_per_photon"]) + " rays a photon), and " +
-               formatDuration(time["seconds_of_setup"].get<double>()) + " before it",
+               (time["stored"].get<bool>() ? "" : " (one thread, nothing stored for want of memory)") + ", " +
+               number(time["rays_per_photon"]) + " rays a photon",
            2);
-  out.line("photons per texel " + amount(time["photons_per_texel"].get<double>()) + "; of the light " +
-               formatPercent(time["missed"].get<double>()) + " meets no surface, " +
-               formatPercent(time["lost"].get<double>()) + " is lost on black backs, " +
-               formatPercent(time["escaped"].get<double>()) + " leaves the scene in the end",
-           2);
+  out.line("reading and layout before it took " + formatDuration(time["seconds_of_setup"].get<double>()));
+  out.line(amount(time["photons_per_texel"].get<double>()) + " photons fall into a texel, on average");
+  out.line("of the light " + formatPercent(time["missed"].get<double>()) + " meets no surface, " +
+           formatPercent(time["lost"].get<double>()) + " ends on black backs; " +
+           formatPercent(time["escaped"].get<double>()) + " leaves the scene in the end");
 }
 
 }  // namespace

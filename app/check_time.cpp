@@ -104,8 +104,9 @@ void warnOfWaste(const CheckInput& in, const BareSample& sample, CheckWarnings& 
 void warnOfNoise(double perTexel, CheckWarnings& warnings) {
   constexpr double kFew = 30;
   if (perTexel < kFew)
-    warnings.add("few_photons", "only " + formatNumber(perTexel) +
-                                    " photons fall into a texel, on average: trace more, or lower --density");
+    warnings.add("few_photons",
+                 (perTexel > 0 ? "only " + formatNumber(perTexel) + " photons fall" : "no photon falls") +
+                     std::string(" into a texel, on average: trace more, or lower --density"));
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ TEST(CheckLights, DarkLightsAndOddUnitsAreWarnedOf) {
 }
 
 TEST(CheckSize, ScenesInOtherUnitsThanMetresAreWarnedOf) {
-  for (const auto& [size, odd] : {std::pair(0.009, true), {0.011, false}, {9990.0, false}, {10010.0, true}}) {
+  for (const auto& [size, odd] : {std::pair(0.009, true), {0.011, false}, {999.0, false}, {1001.0, true}}) {
     Checked c(room(size).build());
     EXPECT_NEAR(checkSize(c.input, c.warnings)["extent_m"][0].get<double>(), size, 1e-6 * size);
     EXPECT_EQ(c.warned("units"), odd) << size;
