@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/bake_environment.h"
 #include "app/bake_identity.h"
 #include "app/bake_outputs.h"
 #include "app/bake_ranks.h"
@@ -51,6 +52,7 @@ PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const
                     const BakePlan& plan) {
   PartHeader header;
   header.sceneName = sceneName(options);
+  header.environmentName = environmentName(options);
   header.identity = {hashBytes(packed.glb), traceSettings(options), resolveSettings(options), layoutHash(plan),
                      scene.emitters().totalFlux()};
   header.makers = {{buildName(), scene.rayCaster().description(), cpuName(), probeRays(scene)}};
@@ -93,22 +95,28 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
   const bool root = mpi == nullptr || mpi->rank() == 0;
   const auto agree = [mpi](const std::function<void()>& f) { mpi == nullptr ? f() : mpi->agree(f); };
   PackedScene packed;
+  ImageRgb sky;
   agree([&] {
     check(options);
     if (!root) return;
     checkOutputs(options);
     packed = loadScene(options);
+    sky = loadSky(options);
   });
   if (mpi != nullptr) {
     shareScene(*mpi, packed);
+    shareSky(*mpi, sky);
     options.threads = threadsOfRank(*mpi, options);
     options.ranks = mpi->size();
   }
+  std::unique_ptr<Environment> environment;
   std::optional<PhotonScene> scene;
   std::optional<BakePlan> plan;
   std::optional<BakeState> state;
   agree([&] {
-    scene.emplace(packed.scene, RayCasterOptions{options.isa, true});
+    environment = makeEnvironment(std::move(sky), options);
+    scene.emplace(packed.scene, RayCasterOptions{options.isa, true}, environment.get());
+    prepareEmission(*scene, options);
     plan.emplace(makePlan(packed.scene, options));
     checkMemory(*plan, mpi == nullptr ? 1 : mpi->localSize());
     if (root) warnAbout(*scene, *plan, options);

@@ -9,13 +9,13 @@
 namespace lucarne {
 namespace {
 
-/// By whole columns, so that no value is changed.
+/// By whole columns, so that no value is changed. Columns to the right turn from +x to +z, clockwise from above.
 void turn(ImageRgb& image, double degrees) {
   const double turns = degrees / 360 - std::floor(degrees / 360);
   const auto shift = static_cast<int>(turns * image.width + 0.5) % image.width;
   for (int y = 0; y < image.height; ++y) {
     const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
-    std::rotate(row, row + (image.width - shift) % image.width, row + image.width);
+    std::rotate(row, row + shift, row + image.width);
   }
 }
 

@@ -14,6 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<const char*, 3> kShapes = {"pyramid", "box", "epanechnikov"};
+constexpr std::array<const char*, 2> kSamplers = {"random", "sobol"};
 constexpr std::array<const char*, 3> kLightParts = {"all", "direct", "indirect"};
 
 /// The place of a view's text among names.
@@ -48,7 +49,14 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
   o.texelBudget = s.at("texel_budget").count();
   o.keepAllDirections = s.at("keep_all_directions").flag();
   o.seed = s.at("seed").count();
+  o.sampler = choiceAt<SamplerKind>(s.at("sampler"), kSamplers);
   o.light = choiceAt<LightPart>(s.at("light"), kLightParts);
+  o.environmentHash = s.at("environment").text();
+  if (!o.environmentHash.empty()) o.environment = header.environmentName;
+  o.environmentScale = s.at("environment_scale").number();
+  o.environmentTurn = s.at("environment_turn").number();
+  o.guidedEmission = s.at("guided_emission").flag();
+  o.guideHash = s.at("guide").text();
   o.kernel.shape = choiceAt<KernelShape>(r.at("kernel"), kShapes);
   o.kernel.width = r.at("kernel_width").number();
   o.photons = std::max<std::uint64_t>(1, header.planned.photons);
@@ -67,6 +75,12 @@ json traceSettings(const BakeOptions& o) {
           {"keep_all_directions", o.keepAllDirections},
           {"direction_filter", "nearest"},
           {"seed", o.seed},
+          {"sampler", kSamplers[static_cast<std::size_t>(o.sampler)]},
+          {"environment", o.environmentHash},
+          {"environment_scale", o.environmentScale},
+          {"environment_turn", o.environmentTurn},
+          {"guided_emission", o.guidedEmission},
+          {"guide", o.guideHash},
           {"light", kLightParts[static_cast<std::size_t>(o.light)]},
           {"fixed_point_bits", kFixedPointBits},
           {"depth_limit", TraceLimits{}.depth}};
@@ -102,6 +116,14 @@ std::string bakeCommand(const PartHeader& header, const std::string& output, con
   add(o.texelBudget != standard.texelBudget, "--texels " + formatExactCount(o.texelBudget));
   add(o.keepAllDirections, "--keep-all-directions");
   add(o.seed != standard.seed, "--seed " + std::to_string(o.seed));
+  add(o.sampler != standard.sampler, std::string("--sampler ") + kSamplers[static_cast<std::size_t>(o.sampler)]);
+  if (o.environment) {
+    const std::string sky = o.environment->string();
+    add(true, "--environment " + quoted((sky.starts_with('-') ? "./" : "") + sky));
+    add(o.environmentScale != 1, "--environment-scale " + shortest(o.environmentScale));
+    add(o.environmentTurn != 0, "--environment-turn " + shortest(o.environmentTurn));
+  }
+  add(!o.guidedEmission, "--no-guide");
   add(o.light != standard.light, std::string("--light ") + kLightParts[static_cast<std::size_t>(o.light)]);
   add(o.kernel.shape != standard.kernel.shape,
       std::string("--kernel ") + kShapes[static_cast<std::size_t>(o.kernel.shape)]);

@@ -31,6 +31,8 @@ void checkSettings(const BakeOptions& o) {
   if (o.directions < 1 || o.directions > 4096) throw UsageError("--directions must be 1 to 4096");
   if (!(o.texelsPerMetre > 0) || !std::isfinite(o.texelsPerMetre)) throw UsageError("--density must be a positive number of texels per metre");
   if (o.texelBudget == 0) throw UsageError("--texels must be at least 1");
+  if (!(o.environmentScale >= 0 && o.environmentScale <= 1e12)) throw UsageError("--environment-scale must be 0 to 1e12");
+  if (!std::isfinite(o.environmentTurn)) throw UsageError("--environment-turn must be a number of degrees");
   if (!(o.kernel.width >= 0.5 && o.kernel.width <= 16)) throw UsageError("--kernel-width must be 0.5 to 16 texels");
 }
 

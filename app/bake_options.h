@@ -33,7 +33,14 @@ struct BakeOptions {
   bool keepAllDirections = false;
   KernelOptions kernel;
   std::uint64_t seed = 0;
+  SamplerKind sampler = SamplerKind::sobol;
   LightPart light = LightPart::all;
+  std::optional<std::filesystem::path> environment;  // .exr or .hdr, equirectangular, cd/m²
+  double environmentScale = 1;  // times its values
+  double environmentTurn = 0;   // degrees about the vertical, counter-clockwise from above
+  bool guidedEmission = true;   // light from far away is aimed where a pilot found it useful
+  // Not options: found while loading, since photons depend on them. Empty: none.
+  std::string environmentHash, guideHash;
   int threads = 0;  // of each process; 0: all
   int ranks = 1;    // processes that bake together: as the MPI launcher says, not an option
   double checkpointSeconds = 300;  // 0: no states are saved

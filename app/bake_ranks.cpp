@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/bake_environment.h"
 #include "base/log.h"
 #include "base/system.h"
 #include "distributed/merge.h"
@@ -13,6 +14,14 @@ void shareScene(MpiJob& mpi, PackedScene& packed) {
   mpi.broadcast(packed.glb);
   mpi.agree([&] {
     if (mpi.rank() != 0) packed.scene = readGlb(packed.glb, "the scene");
+  });
+}
+
+void shareSky(MpiJob& mpi, ImageRgb& sky) {
+  std::vector<std::uint8_t> bytes = packSky(sky);
+  mpi.broadcast(bytes);
+  mpi.agree([&] {
+    if (mpi.rank() != 0) sky = unpackSky(bytes);
   });
 }
 

@@ -1,9 +1,14 @@
 #include "app/bake_scene.h"
 
+#include <tbb/global_control.h>
+
 #include <chrono>
 
+#include "base/log.h"
 #include "base/system.h"
+#include "base/units.h"
 #include "dlm/resolve.h"
+#include "tracer/transport/guide_pilot.h"
 
 namespace lucarne {
 
@@ -30,9 +35,28 @@ Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& o
   return baked;
 }
 
+void prepareEmission(PhotonScene& scene, BakeOptions& options) {
+  const Environment* sky = scene.emitters().environment();
+  options.environmentHash = sky != nullptr ? sky->contentHash().hex() : std::string();
+  options.guideHash.clear();
+  if (!options.guidedEmission || scene.emitters().empty()) return;
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threadCount(options)));
+  for (const GuidePilotResult& pilot : learnGuides(scene, {.seed = options.seed})) {
+    if (pilot.wasted > 0.5 || pilot.guided)
+      logInfo(formatPercent(pilot.wasted) + " of the photons of " + scene.emitters().nameOf(pilot.emitter) +
+              " would light nothing" +
+              (pilot.guided ? ": guided, which makes them worth " + formatNumber(pilot.gain) + " times as many" : ""));
+  }
+  if (scene.emitters().guides().empty()) return;
+  Hasher hasher;
+  for (const EmissionGuide& guide : scene.emitters().guides()) hasher.addText(guide.hash().hex());
+  options.guideHash = hasher.finish().hex();
+}
+
 PhotonRunOptions runOptions(const BakeOptions& options) {
   PhotonRunOptions run;
-  run.seed = options.seed;
+  run.seed = {options.seed, options.sampler};
   run.threads = threadCount(options);
   run.part = options.light;
   return run;

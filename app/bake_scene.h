@@ -29,6 +29,10 @@ Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& o
                   const Tallies& tallies);
 
 /// What tracing needs to know of the options.
+/// Gives the scene its emission guides, where the options want them and a pilot finds them worth it, and the options the
+/// hashes of what photons depend on. Takes the threads of the options.
+void prepareEmission(PhotonScene& scene, BakeOptions& options);
+
 PhotonRunOptions runOptions(const BakeOptions& options);
 
 /// As typed, or all of the machine's.

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kFormat = "lucarne-part";
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 
 Hash128 hashAt(const JsonView& view) {
   const std::optional<Hash128> hash = Hash128::parse(view.text());
@@ -97,6 +97,7 @@ std::uint64_t PartHeader::tallyBytes() const {
 
 void PartHeader::add(const PartHeader& other) {
   sceneName = std::min(sceneName, other.sceneName);
+  environmentName = std::min(environmentName, other.environmentName);
   makers.insert(other.makers.begin(), other.makers.end());
   if (!(planned == other.planned)) planned = {std::max(planned.photons, other.planned.photons), 0};
   photons.add(other.photons);
@@ -130,6 +131,7 @@ json toJson(const PartHeader& h) {
   return {{"format", kFormat},
           {"version", kVersion},
           {"scene_name", h.sceneName},
+          {"environment_name", h.environmentName},
           {"scene_hash", h.identity.scene.hex()},
           {"settings", h.identity.settings},
           {"settings_hash", h.identity.settingsHash().hex()},
@@ -158,6 +160,7 @@ PartHeader partHeaderFrom(const JsonView& v) {
   if (v.at("version").count() != kVersion) v.at("version").refuse("is one that this program does not know");
   PartHeader h;
   h.sceneName = v.at("scene_name").text();
+  h.environmentName = v.at("environment_name").text();
   h.identity.scene = hashAt(v.at("scene_hash"));
   h.identity.settings = flatObject(v.at("settings"));
   h.identity.resolve = flatObject(v.at("resolve"));

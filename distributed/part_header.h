@@ -53,7 +53,8 @@ struct BakePlanned {
 };
 
 struct PartHeader {
-  std::string sceneName;  // of the file, for people
+  std::string sceneName;        // of the file, for people
+  std::string environmentName;  // likewise; empty: none
   BakeIdentity identity;
   std::set<Maker> makers;
   BakePlanned planned;

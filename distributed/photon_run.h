@@ -10,7 +10,7 @@
 namespace lucarne {
 
 struct PhotonRunOptions {
-  std::uint64_t seed = 0;
+  PhotonSeed seed = 0;
   int threads = 1;
   LightPart part = LightPart::all;
   TraceLimits limits;

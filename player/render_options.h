@@ -9,6 +9,7 @@ namespace lucarne {
 enum class RendererKind {
   singlepass,  // one pass; each fragment walks its side's own directions
   multipass,   // the paper's: one additive pass a direction, then a pass that composes
+  pathtraced,  // the truth, by the path tracer: no light maps, no GPU
 };
 
 enum class LightMapFormat {

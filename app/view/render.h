@@ -4,12 +4,16 @@
 #include <filesystem>
 #include <string>
 
+#include "app/bake_options.h"
 #include "player/render_options.h"
 
 namespace lucarne {
 
 struct RenderJob {
   std::filesystem::path dlm, output;  // .exr: linear cd/m², no exposure; .png: auto exposure, tone map, sRGB
+  // Of path-traced pictures: paths a pixel, and the sky that light maps do not keep. `dlm` may be a scene then.
+  std::uint32_t samples = 64;
+  BakeOptions sky;
   std::string camera;                 // name or index; empty: the first, or one that sees the scene
   RenderOptions options;
 };

@@ -13,7 +13,7 @@ void addPlay(CLI::App& app, Action& action) {
   const auto options = std::make_shared<PlayOptions>();
   cmd->add_option("DLM", *dlm, "the light maps")->required();
   cmd->add_option("--camera", options->camera, "name or number (from 0) of the camera to start at");
-  addRenderArguments(*cmd, options->render, *size);
+  addRenderArguments(*cmd, options->render, *size, false);
   cmd->add_option("--scale", options->renderScale, "drawn pixels per window pixel, each way: lower is faster")
       ->check(CLI::Range(0.1, 1.0))
       ->capture_default_str();

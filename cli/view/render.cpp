@@ -9,6 +9,10 @@ namespace lucarne {
 namespace {
 
 void report(const RenderJob& job, const RenderStats& stats) {
+  if (job.options.renderer == RendererKind::pathtraced) {
+    logInfo("wrote " + job.output.string() + " with " + stats.driver + " in " + formatDuration(stats.frameSeconds));
+    return;
+  }
   logInfo("wrote " + job.output.string() + " with " + stats.driver + ": frame " + formatNumber(1000 * stats.frameSeconds) +
           " ms, " + std::to_string(stats.counts.draws) + " draws, " + std::to_string(stats.counts.directionSwitches) +
           " direction switches (" + std::to_string(stats.unsorted.directionSwitches) + " unsorted), " +
@@ -22,16 +26,27 @@ void addRender(CLI::App& app, Action& action) {
   const auto job = std::make_shared<RenderJob>();
   const auto size = std::make_shared<std::string>("1280x720");
   const auto quiet = std::make_shared<bool>(false);
-  cmd->add_option("DLM", job->dlm, "the light maps")->required();
+  cmd->add_option("DLM", job->dlm, "the light maps; for pathtraced also a scene")->required();
   cmd->add_option("-o,--output", job->output, "IMAGE.exr (linear cd/m²) or IMAGE.png (exposed and tone mapped)")->required();
   cmd->add_option("--camera", job->camera,
                   "name or number (from 0) of a camera of the scene; none: the first, or one that sees the scene");
-  addRenderArguments(*cmd, job->options, *size);
+  addRenderArguments(*cmd, job->options, *size, true);
+  cmd->add_option("--samples", job->samples, "pathtraced: paths a pixel; four times as many halve the noise")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  const auto sky = std::make_shared<std::string>();
+  cmd->add_option("--environment", *sky, "pathtraced: the SKY.exr or SKY.hdr that was baked with");
+  cmd->add_option("--environment-scale", job->sky.environmentScale, "pathtraced: as for bake")->capture_default_str();
+  cmd->add_option("--environment-turn", job->sky.environmentTurn, "pathtraced: as for bake")->capture_default_str();
+  cmd->add_option("--seed", job->sky.seed, "pathtraced: another seed gives other noise")->capture_default_str();
+  cmd->add_option("--threads", job->sky.threads, "pathtraced: 0 for all")->capture_default_str();
   cmd->add_flag("--quiet", *quiet, "print errors only");
   cmd->callback([=, &action] {
     action = [=] {
       setQuiet(*quiet);
       applySize(*size, job->options);
+      if (!sky->empty()) job->sky.environment = *sky;
+      checkSettings(job->sky);
       report(*job, render(*job));
     };
   });

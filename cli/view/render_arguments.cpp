@@ -7,11 +7,14 @@
 
 namespace lucarne {
 
-void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size) {
+void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size, bool withPathTracer) {
   cmd.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  addChoice<RendererKind>(cmd, "--renderer", options.renderer,
-                          {{"singlepass", RendererKind::singlepass}, {"multipass", RendererKind::multipass}}, "singlepass",
-                          "singlepass, or multipass: the paper's, one pass a direction");
+  std::map<std::string, RendererKind> renderers = {{"singlepass", RendererKind::singlepass},
+                                                   {"multipass", RendererKind::multipass}};
+  if (withPathTracer) renderers.emplace("pathtraced", RendererKind::pathtraced);
+  addChoice<RendererKind>(cmd, "--renderer", options.renderer, renderers, "singlepass",
+                          std::string("singlepass; multipass: the paper's, one pass a direction") +
+                              (withPathTracer ? "; pathtraced: the truth, without light maps" : ""));
   addChoice<LightMapFormat>(
       cmd, "--map-format", options.format,
       {{"half", LightMapFormat::half}, {"rgb9e5", LightMapFormat::rgb9e5}, {"float", LightMapFormat::float32}}, "half",

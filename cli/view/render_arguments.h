@@ -9,8 +9,9 @@
 
 namespace lucarne {
 
-/// Adds --size, --renderer and --map-format. `size` is parsed by applySize() when the command runs.
-void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size);
+/// Adds --size, --renderer and --map-format. `size` is parsed by applySize() when the command runs. `pathtraced` is among
+/// the renderers only where asked for.
+void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size, bool withPathTracer);
 
 /// "1280x720" into width and height; UsageError otherwise.
 void applySize(const std::string& size, RenderOptions& options);

@@ -21,8 +21,9 @@ inline BakeOptions quickOptions(std::uint64_t photons, double texelsPerMetre) {
 
 /// A baked scene with everything that made it.
 struct BakedScene {
-  BakedScene(const Scene& scene_, const BakeOptions& options)
-      : scene(scene_), photonScene(scene), plan(makePlan(scene, options)),
+  /// `sky`, if any, must outlive this.
+  BakedScene(const Scene& scene_, const BakeOptions& options, const Environment* sky = nullptr)
+      : scene(scene_), photonScene(scene, {}, sky), plan(makePlan(scene, options)),
         baked(bakeScene(photonScene, plan, options, [](const RunProgress&) { return true; })) {}
 
   Scene scene;

@@ -210,6 +210,12 @@ bool EmitterTable::isDistant(std::size_t emitter) const {
   return e.face == kNone && (e.light == kSky || scene_->lights[e.light].kind == LightKind::directional);
 }
 
+std::string EmitterTable::nameOf(std::size_t emitter) const {
+  const Emitter& e = emitters_[emitter];
+  if (e.face != kNone) return "triangle " + std::to_string(faces_[e.face].triangle);
+  return e.light == kSky ? "the sky in " + environment_->name() : "the light '" + scene_->lights[e.light].name + "'";
+}
+
 void EmitterTable::setGuide(std::size_t emitter, EmissionGuide guide) {
   emitters_[emitter].guide = static_cast<std::uint32_t>(guides_.size());
   guides_.push_back(std::move(guide));

@@ -67,6 +67,8 @@ class EmitterTable {
   EmittedPhoton sampleUnguided(std::size_t emitter, const EmissionSample& u) const;
   /// Light from far away: suns and the environment, which guides are made for.
   bool isDistant(std::size_t emitter) const;
+  /// "the light 'Sun'", "the sky in SKY.hdr", for people.
+  std::string nameOf(std::size_t emitter) const;
   /// Photons of a distant emitter follow the guide from now on.
   void setGuide(std::size_t emitter, EmissionGuide guide);
   const std::vector<EmissionGuide>& guides() const { return guides_; }
