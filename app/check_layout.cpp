@@ -95,6 +95,14 @@ std::uint64_t mapBytes(const TallyLayout& tallies) {
   return bytes;
 }
 
+/// Of tallies while tracing: threads have their own while all together are small.
+std::uint64_t tracingBytes(const CheckInput& in) {
+  const std::uint64_t bytes = in.plan.tallies.bytes();
+  const PhotonRunOptions run = runOptions(in.options);
+  const std::uint64_t all = bytes * static_cast<std::uint64_t>(run.threads);
+  return all <= run.privateTallyBytes ? all : bytes;
+}
+
 std::uint64_t freeDiskBytes() {
   std::error_code failed;
   const auto space = std::filesystem::space(".", failed);
@@ -119,13 +127,6 @@ void warnOfResources(const Needs& needs, std::uint64_t memory, std::uint64_t dis
 }
 
 }  // namespace
-
-std::uint64_t tracingBytes(const CheckInput& in) {
-  const std::uint64_t bytes = in.plan.tallies.bytes();
-  const PhotonRunOptions run = runOptions(in.options);
-  const std::uint64_t all = bytes * static_cast<std::uint64_t>(run.threads);
-  return all <= run.privateTallyBytes ? all : bytes;
-}
 
 nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
   const BakePlan& plan = in.plan;

@@ -16,7 +16,4 @@ nlohmann::json checkLayout(const CheckInput& input, CheckWarnings& warnings);
 /// the folder it is run in.
 nlohmann::json checkResources(const CheckInput& input, CheckWarnings& warnings);
 
-/// Of tallies while tracing: threads have their own while all together are small.
-std::uint64_t tracingBytes(const CheckInput& input);
-
 }  // namespace lucarne

@@ -161,8 +161,8 @@ void writeTime(const Json& time, Sections& out) {
   out.line("about " + formatDuration(time["seconds"].get<double>()) + " for " + counted(photons, "photon") + " on " +
                counted(time["threads"], "thread") + ": " +
                formatRate(time["photons_per_second"].get<double>(), "photons") +
-               (time["stored"].get<bool>() ? "" : " (one thread, nothing stored for want of memory)") + ", " +
-               number(time["rays_per_photon"]) + " rays a photon",
+               (time["sampled_tally_bytes"] > 0 ? "" : " (storing nothing)") + ", " + number(time["rays_per_photon"]) +
+               " rays a photon",
            2);
   out.line("reading and layout before it took " + formatDuration(time["seconds_of_setup"].get<double>()));
   out.line(amount(time["photons_per_texel"].get<double>()) + " photons fall into a texel, on average");

@@ -4,9 +4,9 @@
 #include <chrono>
 
 #include "app/bake_scene.h"
-#include "app/check_layout.h"
 #include "base/float_mode.h"
 #include "base/memory.h"
+#include "base/system.h"
 #include "base/units.h"
 
 namespace lucarne {
@@ -65,13 +65,13 @@ BareSample traceBare(const CheckInput& in) {
           emitted > 0 ? sumOf(ledger.escaped) / emitted : 0};
 }
 
-/// Photons a second of all threads, stored as a bake stores them. The first fill caches and touch the pages of the
-/// tallies; the clock starts after them.
-double traceStored(const CheckInput& in) {
+/// Photons a second of all threads, stored in tallies of that plan as a bake stores them. The first fill caches and
+/// touch the pages of the tallies; the clock starts after them.
+double traceStored(const CheckInput& in, const DirectionSet& directions, const TallyLayout& plan) {
   const PhotonRunOptions options = runOptions(in.options);
-  Tallies tallies(in.plan.tallies);
-  const TexelMap map(in.scene(), in.plan.charts, in.plan.layout, in.plan.tallies);
-  PhotonRun run({in.photonScene, map, in.plan.tallies, in.plan.directions}, options, tallies);
+  Tallies tallies(plan);
+  const TexelMap map(in.scene(), in.plan.charts, in.plan.layout, plan);
+  PhotonRun run({in.photonScene, map, plan, directions}, options, tallies);
   const auto goOn = [](const RunProgress&) { return true; };
   constexpr int kMostChunks = 64;
   const std::uint64_t step = 4096 * static_cast<std::uint64_t>(std::min(options.threads, kMostChunks));
@@ -83,6 +83,25 @@ double traceStored(const CheckInput& in) {
     seconds = secondsSince(start);
   }
   return static_cast<double>(timed) / seconds;
+}
+
+struct StoredSample {
+  double perSecond = 0;
+  std::uint64_t tallyBytes = 0;  // of the tallies that were stored in; 0: none
+};
+
+/// Touching large tallies for the first time takes longer than a sample may. One direction a side is then stored in
+/// their place: that is out of the caches as well. Where even those are large nothing is stored, and all threads are
+/// taken to be as fast as one.
+StoredSample sampleStored(const CheckInput& in, double barePerSecond) {
+  constexpr std::uint64_t kLargest = std::uint64_t{256} << 20;
+  const std::uint64_t most = std::min(kLargest, availableMemoryBytes() / 2);
+  if (in.plan.tallies.bytes() <= most)
+    return {traceStored(in, in.plan.directions, in.plan.tallies), in.plan.tallies.bytes()};
+  const DirectionSet one(1);
+  const TallyLayout plan = planTallies(in.scene(), in.plan.charts, in.plan.layout, one);
+  if (plan.bytes() <= most) return {traceStored(in, one, plan), plan.bytes()};
+  return {barePerSecond * std::min(threadCount(in.options), threadCount()), 0};
 }
 
 void warnOfWaste(const CheckInput& in, const BareSample& sample, CheckWarnings& warnings) {
@@ -117,15 +136,14 @@ nlohmann::json checkTime(const CheckInput& in, const nlohmann::json& layout, Che
       {"seconds_of_setup", in.secondsOfSetup}, {"threads", threadCount(in.options)}, {"photons", in.options.photons}};
   if (in.photonScene.emitters().empty()) return json;
   const BareSample bare = traceBare(in);
-  const bool stored = 2 * tracingBytes(in) <= availableMemoryBytes();
-  const double rate = stored ? traceStored(in) : bare.perSecond;
+  const StoredSample stored = sampleStored(in, bare.perSecond);
   const auto covered = layout["covered_texels"].get<double>();
   const double perTexel = covered > 0 ? photons * bare.hits / covered : 0;
   warnOfWaste(in, bare, warnings);
   warnOfNoise(perTexel, warnings);
-  json.update({{"seconds", photons / rate},
-               {"photons_per_second", rate},
-               {"stored", stored},
+  json.update({{"seconds", photons / stored.perSecond},
+               {"photons_per_second", stored.perSecond},
+               {"sampled_tally_bytes", stored.tallyBytes},
                {"bare_photons_per_second", bare.perSecond},
                {"rays_per_photon", bare.rays},
                {"photons_per_texel", perTexel},

@@ -6,7 +6,7 @@
 namespace lucarne {
 
 /// seconds (of tracing), seconds_of_setup, threads, photons, photons_per_second (all threads, stored as a bake stores
-/// them; where there is no memory for tallies that of one bare thread, and `stored` is false),
+/// them), sampled_tally_bytes (of the tallies stored in; smaller than those of the bake where these are large),
 /// bare_photons_per_second (one thread, nothing stored), rays_per_photon, photons_per_texel (that fall into a covered
 /// texel, on average). Fractions of the photons: missed (left the scene without a hit), lost (ended on the black back
 /// of a one-sided surface before any lit side); of the flux: escaped (left the scene, after bounces too). A scene

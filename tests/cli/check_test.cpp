@@ -120,6 +120,15 @@ TEST_F(CheckProgram, BadFilesAndWrongUsageEndInOneLine) {
   refused("-o x.dlm", 2, "-o");
 }
 
+TEST_F(CheckProgram, LargeTalliesAreNotTouchedForASample) {
+  const json small = check(kQuickScene);
+  EXPECT_EQ(small["time"]["sampled_tally_bytes"], small["resources"]["tally_bytes"]);
+  const json large = check(std::string(kQuickScene) + "--directions 64 --density 2000 --texels 1M");
+  EXPECT_GT(large["resources"]["tally_bytes"], 500'000'000);
+  EXPECT_GT(large["time"]["sampled_tally_bytes"], 0);
+  EXPECT_LT(large["time"]["sampled_tally_bytes"], 100'000'000);
+}
+
 TEST_F(CheckProgram, WritesNothing) {
   mustRun("check");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2) << "more than stdout and stderr";
