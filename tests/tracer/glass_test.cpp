@@ -20,20 +20,31 @@ using test::glassRandoms;
 using test::Mean;
 using test::other;
 
-/// Bins of the whole sphere: one set of polar bins for each hemisphere, about the smooth glass's direction there and
-/// dense on the scale of the lobe: r = tan(angle/2) = scale · t/(1−t), t in [0, 1).
+/// Bins of the whole sphere: one set of polar bins for each hemisphere, about the mean direction of what goes there and
+/// dense on the scale of its spread: r = tan(angle/2) = scale · t/(1−t), t in [0, 1).
 class LobeBins {
  public:
-  LobeBins(const Glass& g, Vec3f wi) : up_(Vec3d(-wi.x, -wi.y, wi.z)), down_(smoothDown(g, wi)) {
-    const auto alpha = static_cast<double>(g.alpha);
-    scale_[0] = 0.7 * alpha;
-    scale_[1] = g.thin ? scale_[0] : 0.7 * alpha * std::abs(1 - 1 / static_cast<double>(g.eta));
+  LobeBins(const Glass& g, Vec3f wi) {
+    for (const int side : {0, 1}) {
+      std::vector<Vec3d> there;
+      Vec3d sum{0, 0, side == 1 ? -1e-9 : 1e-9};
+      for (std::uint64_t i = 0; i < 2000; ++i) {
+        const auto s = sample(g, wi, glassRandoms(14, i), Transport::flux);
+        if (!s || (s->wo.z < 0) != (side == 1)) continue;
+        there.push_back(Vec3d(s->wo));
+        sum += there.back();
+      }
+      about_[side] = Frame<double>(normalize(sum));
+      double spread = 0;
+      for (const Vec3d& w : there) spread += halfTangent(about_[side].toLocal(w)) / static_cast<double>(there.size());
+      scale_[side] = there.size() < 50 ? 0.5 : spread;
+    }
   }
 
   std::size_t binOf(Vec3f w) const {
     const int side = w.z < 0;
-    const Vec3d v = (side ? down_ : up_).toLocal(Vec3d(w));
-    const double r = std::sqrt(v.x * v.x + v.y * v.y) / std::max(1 + v.z, 1e-12);
+    const Vec3d v = about_[side].toLocal(Vec3d(w));
+    const double r = halfTangent(v);
     const double t = r / (r + scale_[side]), turns = std::atan2(v.y, v.x) / (2 * std::numbers::pi) + 0.5;
     const auto i = std::min(kPolar - 1, static_cast<std::size_t>(t * kPolar));
     const auto j = std::min(kAzimuth - 1, static_cast<std::size_t>(turns * kAzimuth));
@@ -81,16 +92,12 @@ class LobeBins {
     const double r = scale_[side] * t / (1 - t), dr = scale_[side] / ((1 - t) * (1 - t)), k = 2 / (1 + r * r);
     const double phi = 2 * std::numbers::pi * (u - 0.5);
     const Vec3d v{r * k * std::cos(phi), r * k * std::sin(phi), k - 1};
-    return {Vec3f((side ? down_ : up_).toWorld(v)), k * k * r * dr * 2 * std::numbers::pi, k * dr,
+    return {Vec3f(about_[side].toWorld(v)), k * k * r * dr * 2 * std::numbers::pi, k * dr,
             k * r * 2 * std::numbers::pi};
   }
-  static Vec3d smoothDown(const Glass& g, Vec3f wi) {
-    if (g.thin) return Vec3d(-wi);
-    const Refraction r = refraction(wi.z, g.eta);
-    return Vec3d(r.total ? normalize(Vec3f{-wi.x, -wi.y, -0.02f}) : refract(wi, {0, 0, 1}, wi.z, r.cosT, g.eta));
-  }
+  static double halfTangent(Vec3d v) { return std::sqrt(v.x * v.x + v.y * v.y) / std::max(1 + v.z, 1e-12); }
 
-  Frame<double> up_, down_;
+  Frame<double> about_[2]{Frame<double>({0, 0, 1}), Frame<double>({0, 0, -1})};
   double scale_[2];
 };
 

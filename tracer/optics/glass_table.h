@@ -5,7 +5,12 @@
 // and a root, and at grazing angles. So each row (one α) has its own nodes, dense about those places on the scale of α:
 // at distance x from the anchor of a piece of length L, unit = (⁴√(1 + x/w) − 1) / (⁴√(1 + L/w) − 1), w the lobe's
 // width. Rows are read at the units that belong to the α asked for, not at the same cosine, which keeps the step where
-// it is between rows.
+// it is between rows. Both ways cubics go through the nodes.
+//
+// Error against 48-point quadrature, indices 1.005 to 2.4, half of the questions about those features: root mean square
+// below 3e-4, largest 9e-4; for one α alone below 5e-4. Building takes 0.1 to 0.15 s of processor time, shared by the
+// threads, or 0.02 s for one α. At α = 1 much is lost between facets (6 % to 60 %), as in every single-scattering
+// model.
 #pragma once
 
 #include <cstddef>
