@@ -144,7 +144,7 @@ Vec3f integrateColumn(const Incidence& in, const Edges& edges, float x, float ro
 
 /// E[shares] over the visible normals. In slopes their density is G1(w)/cosθ · (w.z + w.x x) · P22(x, y), with w in the
 /// plane y = 0 and P22 = 1/(π α² (1 + (x² + y²)/α²)²) (Heitz 2014, "Understanding the masking-shadowing function in
-/// microfacet-based BRDFs", equations 16 and 85). With x = α tan χ, y = α tan ψ / cos χ it becomes, without a tail,
+/// microfacet-based BRDFs"). With x = α tan χ, y = α tan ψ / cos χ it becomes, without a tail,
 ///
 ///   G1(w)/cosθ · ½ (cosθ cos χ + α sinθ sin χ) dχ · (2/π) cos²ψ dψ
 ///

@@ -9,7 +9,7 @@
 //
 // Error against 48-point quadrature, indices 1.005 to 2.4, half of the questions about those features: root mean square
 // below 3e-4, largest 9e-4; for one α alone below 5e-4. Building takes 0.1 to 0.15 s of processor time, shared by the
-// threads, or 0.02 s for one α. At α = 1 much is lost between facets (6 % to 60 %), as in every single-scattering
+// threads, or 0.02 s for one α. At α = 1 a tenth to two thirds is lost between facets, as in every single-scattering
 // model.
 #pragma once
 
