@@ -90,18 +90,43 @@ TEST(SobolSampler, StreamsEventsPhotonsAndSeedsAreAllDifferent) {
 
 TEST(SobolSampler, PicksOfEmittersAreStratifiedAndFineToTheLastBit) {
   constexpr int samples = 1 << 14;
-  std::vector<int> strata(samples, 0);
-  std::vector<double> observed(128, 0), expected(128, samples / 128.0);
+  const auto check = [](const std::function<double(const SobolSampler&)>& pick) {
+    std::vector<int> strata(samples, 0);
+    std::vector<double> observed(128, 0), expected(128, samples / 128.0);
+    for (std::uint64_t i = 0; i < samples; ++i) {
+      const double u = pick(SobolSampler(4, i));
+      ++strata[static_cast<std::size_t>(u * samples)];
+      ++observed[static_cast<std::uint64_t>(std::ldexp(u, 53)) & 127u];
+    }
+    EXPECT_EQ(*std::min_element(strata.begin(), strata.end()), 1);
+    EXPECT_GT(test::chiSquareP(observed, expected), 1e-4);
+  };
+  check([](const SobolSampler& s) { return s.pick(); });
+  check([](const SobolSampler& s) { return s.emission().pick; });
+}
+
+// A pick of one of 16 emitters leaves 2^10 photons of 2^14 to each.
+TEST(SobolSampler, PhotonsOfOneEmitterAreStratifiedInWhatIsLeftOfThePickAndTheNextNumber) {
+  constexpr int samples = 1 << 14, emitters = 16, across = 32;
+  std::vector<int> cells(samples, 0);
   for (std::uint64_t i = 0; i < samples; ++i) {
-    const SobolSampler s(4, i);
-    const EmitterNumbers e = s.emitter();
-    EXPECT_EQ(e.pick, s.pick());
-    EXPECT_EQ(e.side, s.side());
-    ++strata[static_cast<std::size_t>(e.pick * samples)];
-    ++observed[static_cast<std::uint64_t>(std::ldexp(e.pick, 53)) & 127u];
+    const EmissionNumbers e = SobolSampler(4, i).emission();
+    const double scaled = e.pick * emitters, rest = scaled - std::floor(scaled);
+    const int cell = (static_cast<int>(scaled) * across + static_cast<int>(rest * across)) * across +
+                     static_cast<int>(e.others[0] * across);
+    ++cells[static_cast<std::size_t>(cell)];
   }
-  EXPECT_EQ(*std::min_element(strata.begin(), strata.end()), 1);
-  EXPECT_GT(test::chiSquareP(observed, expected), 1e-4);
+  EXPECT_EQ(*std::min_element(cells.begin(), cells.end()), 1);
+}
+
+TEST(SobolSampler, NumbersOfTheEmissionAreThoseOfTheBlocks) {
+  const SobolSampler s(4, 123456789);
+  const auto u = s.floats(0, Stream::emission), v = s.floats(0, Stream::emitter);
+  EXPECT_EQ(s.emission().others, (std::array<float, 3>{u[1], u[2], u[3]}));
+  EXPECT_EQ(static_cast<float>(std::floor(s.emission().pick * 0x1p24) * 0x1p-24), u[0]);
+  EXPECT_EQ(static_cast<float>(std::floor(s.pick() * 0x1p24) * 0x1p-24), v[0]);
+  EXPECT_EQ(s.side(), v[1]);
+  EXPECT_EQ(s.emitter().pick, s.pick());
 }
 
 TEST(RandomSampler, PicksEmittersByTheFirstTwoWordsAndSidesByTheThird) {
@@ -109,6 +134,7 @@ TEST(RandomSampler, PicksEmittersByTheFirstTwoWordsAndSidesByTheThird) {
   const Words w = s.words(0, Stream::emitter);
   EXPECT_EQ(s.pick(), toUnitDouble(w[0], w[1]));
   EXPECT_EQ(s.side(), toUnitFloat(w[2]));
+  EXPECT_EQ(s.emission().pick, s.pick());
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// Numbers of photon i: a pure function of (seed, i, event, stream), never of a thread, a rank or what came before. Event 0
-// is the emission, event k ≥ 1 the k-th hit.
+// Numbers of photon i: a pure function of (seed, i, event, stream), never of a thread, a rank or what came before.
+// Event 0 is the emission, event k ≥ 1 the k-th hit.
 //
 // Two samplers with one interface, for templates to choose from. A block is the four words of one (event, stream): the
 // top 24 bits of each are a number to sample with, the low 8 are free for rounding.
-//   RandomSampler  Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"): counter
-//                  (i, event, stream), key seed. All words of all photons are independent.
+//   RandomSampler  Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"), key
+//                  seed, counter (i, event, stream). All words of all photons are independent.
 //   SobolSampler   the block is a four-dimensional low-discrepancy point set over the photons (sobol.h), the blocks are
 //                  independent of each other. Each word alone is as uniform as a random one.
 #pragma once
@@ -49,6 +49,15 @@ struct EmitterNumbers {
   float side;
 };
 
+/// The emission in four numbers, the block (event 0, emission) made once: what is left of `pick` inside the interval of
+/// the emitter that it chose, stretched to [0, 1), is the first number of the position, so that the photons of each
+/// emitter are stratified among themselves in all that follows. A pick from another block would deal them out at
+/// random.
+struct EmissionNumbers {
+  double pick;  // 53 bits
+  std::array<float, 3> others;
+};
+
 namespace detail {
 
 constexpr std::array<float, 4> toUnitFloats(const std::array<std::uint32_t, 4>& w) {
@@ -76,6 +85,10 @@ class RandomSampler {
   }
   double pick() const { return emitter().pick; }
   float side() const { return emitter().side; }
+  EmissionNumbers emission() const {
+    const auto w = words(0, Stream::emitter), u = words(0, Stream::emission);
+    return {toUnitDouble(w[0], w[1]), {toUnitFloat(u[1]), toUnitFloat(u[2]), toUnitFloat(u[3])}};
+  }
 
  private:
   std::uint64_t seed_, photon_;
@@ -97,17 +110,25 @@ class SobolSampler {
   std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
     return detail::toUnitFloats(words(event, stream));
   }
-  /// Pick and side are dimensions 0 and 1. A word has too few bits for a pick among many emitters; those below its last
-  /// are a hash of it, as Owen's scramble would go on: the pick stays a stratified sequence, and uniform in all 53 bits.
+  /// Pick and side are dimensions 0 and 1.
   EmitterNumbers emitter() const {
     const auto w = words(0, Stream::emitter);
-    const auto below = static_cast<std::uint32_t>(mix64(~key_ ^ w[0]) >> 32);
-    return {toUnitDouble(w[0], below), toUnitFloat(w[1])};
+    return {fine(w[0]), toUnitFloat(w[1])};
   }
   double pick() const { return emitter().pick; }
   float side() const { return emitter().side; }
+  EmissionNumbers emission() const {
+    const auto w = words(0, Stream::emission);
+    return {fine(w[0]), {toUnitFloat(w[1]), toUnitFloat(w[2]), toUnitFloat(w[3])}};
+  }
 
  private:
+  /// A word has too few bits to pick among many emitters; those below its last are a hash of it, as Owen's scramble
+  /// would go on: the pick stays a stratified sequence, and uniform in all 53 bits.
+  double fine(std::uint32_t word) const {
+    return toUnitDouble(word, static_cast<std::uint32_t>(mix64(~key_ ^ word) >> 32));
+  }
+
   std::uint64_t key_, photon_;
   std::uint32_t reversed_;
 };
