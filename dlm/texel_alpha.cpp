@@ -53,7 +53,8 @@ int TexelAlpha::gridSize(std::uint32_t triangle, const std::array<Vec2d, 3>& cor
   if (!reader || set.empty()) return 1;
   const double area = std::abs(cross2(corner[1] - corner[0], corner[2] - corner[0]));
   const double pixels = reader.pixelArea(set[t.v[1]] - set[t.v[0]], set[t.v[2]] - set[t.v[0]]);
-  return static_cast<int>(std::clamp(std::ceil(std::sqrt(pixels / std::max(area, 1e-12))), 2.0, double{kFinest}));
+  constexpr double kSamplesAPixel = 4;  // along each axis: masks end between pixels
+  return static_cast<int>(std::clamp(std::ceil(kSamplesAPixel * std::sqrt(pixels / std::max(area, 1e-12))), 4.0, double{kFinest}));
 }
 
 double TexelAlpha::mean(std::uint32_t triangle, const std::array<Vec2d, 3>& corner, int x, int y) const {

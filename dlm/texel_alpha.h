@@ -16,8 +16,8 @@ class TexelAlpha {
 
   /// False where alpha is 1 everywhere on the triangle.
   bool varies(std::uint32_t triangle) const { return scene_.materials[scene_.triangles[triangle].material].hasAlpha(); }
-  /// Mean coverage of a triangle inside texel (x, y), its corners in texel coordinates. By samples on a grid that is as
-  /// fine as the texture, up to 16 × 16.
+  /// Mean coverage of a triangle inside texel (x, y), its corners in texel coordinates. By samples on a grid that is four
+  /// times as fine as the texture, up to 16 × 16.
   double mean(std::uint32_t triangle, const std::array<Vec2d, 3>& corner, int x, int y) const;
 
  private:

@@ -151,6 +151,7 @@ TexelGatherResult gatherTexel(const GatherScene& in, std::uint32_t sideIndex, in
   TexelGatherResult result;
   result.byRank.resize(members.mapCount());
   if (surface.empty()) return result;
+  result.covered = true;
   const PathTracer paths(in.scene);
   std::vector<Moments> moments(members.mapCount());
   std::vector<double> shares(members.mapCount());

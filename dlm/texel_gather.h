@@ -33,13 +33,13 @@ struct GatherValue {
 };
 
 struct TexelGatherResult {
+  bool covered = false;              // false: the kernel finds no surface, the map copies a neighbour
   Rgbd irradiance{};                // lx
   GatherValue luminance;            // of the irradiance
   std::vector<GatherValue> byRank;  // of each map of the side, in the order of its member set
 };
 
-/// `samples` paths at texel (x, y) of a side, numbered from 0 under `seed`. At a texel that the kernel finds no surface
-/// for, zeros.
+/// `samples` paths at texel (x, y) of a side, numbered from 0 under `seed`.
 TexelGatherResult gatherTexel(const GatherScene& scene, std::uint32_t side, int x, int y, const KernelOptions& kernel,
                               LightPart part, std::uint64_t samples, std::uint64_t seed);
 

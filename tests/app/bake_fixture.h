@@ -9,6 +9,7 @@
 #include "dlm/probe.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
+#include "tracer/transport/guide_pilot.h"
 
 namespace lucarne::test {
 
@@ -23,8 +24,12 @@ inline BakeOptions quickOptions(std::uint64_t photons, double texelsPerMetre) {
 struct BakedScene {
   /// `sky`, if any, must outlive this.
   BakedScene(const Scene& scene_, const BakeOptions& options, const Environment* sky = nullptr)
-      : scene(scene_), photonScene(scene, {}, sky), plan(makePlan(scene, options)),
+      : scene(scene_), photonScene(scene, {}, sky), plan((learn(photonScene, options), makePlan(scene, options))),
         baked(bakeScene(photonScene, plan, options, [](const RunProgress&) { return true; })) {}
+
+  static void learn(PhotonScene& scene, const BakeOptions& options) {
+    if (options.guidedEmission && !scene.emitters().empty()) learnGuides(scene, {.seed = options.seed});
+  }
 
   Scene scene;
   PhotonScene photonScene;

@@ -78,7 +78,7 @@ RTCRayHit rayHit(Vec3f o, Vec3f d) {
 /// roulette. No textures, no BSDF, no ledger, no recomputed hit.
 std::uint64_t leanPhoton(const Fixture& f, std::uint64_t i) {
   const PhotonSampler sampler(0, i);
-  const EmittedPhoton p = f.photonScene->emitters().sample(emissionSample(sampler));
+  const EmittedPhoton p = f.photonScene->emitters().sample(sampler.emission());
   Vec3f o = RayCaster::leave(p.position, p.normal, 1e-6f), d = p.direction;
   for (std::uint32_t event = 1;; ++event) {
     RTCIntersectContext context;

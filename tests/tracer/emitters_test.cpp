@@ -14,12 +14,7 @@ namespace {
 using test::SceneBuilder;
 constexpr double kPi64 = std::numbers::pi;
 
-EmissionSample numbers(std::uint64_t i) {
-  const PhotonSampler s(11, i);
-  const auto pick = s.words(0, Stream::emitter);
-  const auto u = s.floats(0, Stream::emission);
-  return {toUnitDouble(pick[0], pick[1]), toUnitFloat(pick[2]), {u[0], u[1]}, {u[2], u[3]}};
-}
+EmissionNumbers numbers(std::uint64_t i) { return PhotonSampler(11, i).emission(); }
 
 Light light(LightKind kind, Rgb intensity) {
   Light l;
@@ -102,7 +97,7 @@ TEST(EmitterTable, PicksInProportionToFluxAndKeepsTheOrder) {
   std::vector<double> observed(weights.size(), 0), expected;
   constexpr int samples = 100000;
   for (int i = 0; i < samples; ++i) {
-    const auto p = t.emitters.sample({(i + 0.5) / samples, 0, {0.3f, 0.3f}, {0.5f, 0.5f}});
+    const auto p = t.emitters.sample({(i + 0.5) / samples, {0.3f, 0.5f, 0.5f}});
     EXPECT_GE(p.triangle, last);
     last = p.triangle;
     ++observed[p.triangle - 2];

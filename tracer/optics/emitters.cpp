@@ -50,15 +50,11 @@ double quadrature(const std::array<Vec2f, 3>& piece, F&& value) {
   return sum / 16;
 }
 
+float belowOne(double u) { return std::min(static_cast<float>(u), 1 - 0x1p-24f); }
+
 constexpr std::array<Vec2f, 3> kWholeTriangle{Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0, 1}};
 
 }  // namespace
-
-EmissionSample emissionSample(const PhotonSampler& sampler) {
-  const auto u = sampler.floats(0, Stream::emission);
-  const EmitterNumbers choice = sampler.emitter();
-  return {choice.pick, choice.side, {u[0], u[1]}, {u[2], u[3]}};
-}
 
 EmitterTable::EmitterTable(const Scene& scene, const SurfaceTable& surfaces, const Environment* environment)
     : scene_(&scene), surfaces_(&surfaces), environment_(environment) {
@@ -189,17 +185,26 @@ std::uint32_t EmitterTable::pieceAt(const Face& face, Vec2f b) {
 
 std::size_t EmitterTable::pick(double u) const { return choose(cumulative_, guide_, u).index; }
 
-EmittedPhoton EmitterTable::sample(const EmissionSample& u) const {
-  const std::size_t i = pick(u.pick);
-  const Emitter& e = emitters_[i];
-  if (e.guide == kNone) return sampleUnguided(i, u);
-  const EmissionGuide::Numbers guided = guides_[e.guide].warp(u.direction, u.position);
-  EmittedPhoton photon = sampleUnguided(i, {u.pick, u.side, guided.place, guided.direction});
+EmissionPlace EmitterTable::placeFor(std::size_t emitter, double rest, const std::array<float, 3>& others) const {
+  const Emitter& e = emitters_[emitter];
+  if (e.face == kNone) return {0, {others[1], others[2]}, {belowOne(rest), others[0]}};
+  if (!faces_[e.face].twoSided) return {0, {belowOne(rest), others[0]}, {others[1], others[2]}};
+  const double half = 2 * rest;
+  return {belowOne(rest), {belowOne(half < 1 ? half : half - 1), others[0]}, {others[1], others[2]}};
+}
+
+EmittedPhoton EmitterTable::sample(const EmissionNumbers& u) const {
+  const Choice choice = choose(cumulative_, guide_, u.pick);
+  const Emitter& e = emitters_[choice.index];
+  EmissionPlace place = placeFor(choice.index, choice.rest, u.others);
+  if (e.guide == kNone) return sampleUnguided(choice.index, place);
+  const EmissionGuide::Numbers guided = guides_[e.guide].warp(place.direction, place.position);
+  EmittedPhoton photon = sampleUnguided(choice.index, {place.side, guided.place, guided.direction});
   photon.beta *= static_cast<float>(1 / guided.density);
   return photon;
 }
 
-EmittedPhoton EmitterTable::sampleUnguided(std::size_t emitter, const EmissionSample& u) const {
+EmittedPhoton EmitterTable::sampleUnguided(std::size_t emitter, const EmissionPlace& u) const {
   const Emitter& e = emitters_[emitter];
   if (e.face != kNone) return emitFromTriangle(e, u);
   return e.light == kSky ? emitFromSky(u) : emitFromLight(e, u);
@@ -223,7 +228,7 @@ void EmitterTable::setGuide(std::size_t emitter, EmissionGuide guide) {
 
 /// Position pdf 1/area, direction pdf cos/π, side pdf 1/sides, piece pdf flux/total:
 /// beta = Le·cos / (pdf) / total = Le · π · area · sides / flux.
-EmittedPhoton EmitterTable::emitFromTriangle(const Emitter& e, const EmissionSample& u) const {
+EmittedPhoton EmitterTable::emitFromTriangle(const Emitter& e, const EmissionPlace& u) const {
   const Face& f = faces_[e.face];
   const Vec2f p = sampleTriangle(u.position);
   const Vec2f b = e.bary0 + e.edge1 * p.x + e.edge2 * p.y;
@@ -234,7 +239,7 @@ EmittedPhoton EmitterTable::emitFromTriangle(const Emitter& e, const EmissionSam
   return {position, direction, Rgb(Rgbd(radiance) * e.beta), f.triangle, n};
 }
 
-EmittedPhoton EmitterTable::emitFromLight(const Emitter& e, const EmissionSample& u) const {
+EmittedPhoton EmitterTable::emitFromLight(const Emitter& e, const EmissionPlace& u) const {
   const Light& l = scene_->lights[e.light];
   const Rgb beta(Rgbd(l.intensity) * (1 / mean(Rgbd(l.intensity))));
   const Frame<float> frame{Vec3f(l.direction)};
@@ -252,7 +257,7 @@ EmittedPhoton EmitterTable::emitFromLight(const Emitter& e, const EmissionSample
 }
 
 /// The direction's density is mean(L)/∫mean(L): a photon carries L/mean(L).
-EmittedPhoton EmitterTable::emitFromSky(const EmissionSample& u) const {
+EmittedPhoton EmitterTable::emitFromSky(const EmissionPlace& u) const {
   const Environment::Sample s =
       environment_->sample(static_cast<double>(u.direction.x), static_cast<double>(u.direction.y));
   return fromDisc(-s.direction, u.position, s.radiance * (1 / mean(s.radiance)));

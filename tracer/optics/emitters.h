@@ -27,13 +27,12 @@ struct EmittedPhoton {
   Vec3f normal;            // of the emitting side; zero for lights
 };
 
-/// Six numbers in [0, 1): pick (double), side or spare, position, direction.
-struct EmissionSample {
-  double pick;
+/// Numbers in [0, 1) for a photon of a chosen emitter: side of a two-sided face, place on it (or on the disc that light
+/// from far away comes from), direction.
+struct EmissionPlace {
   float side;
   Vec2f position, direction;
 };
-EmissionSample emissionSample(const PhotonSampler& sampler);
 
 class EmitterTable {
  public:
@@ -62,9 +61,13 @@ class EmitterTable {
   std::size_t size() const { return emitters_.size(); }
   /// lm, mean over channels; the scale of beta.
   double totalFlux() const { return totalFlux_; }
-  EmittedPhoton sample(const EmissionSample& u) const;
-  /// The same from a chosen emitter, whatever its guide; beta as if all photons came from it.
-  EmittedPhoton sampleUnguided(std::size_t emitter, const EmissionSample& u) const;
+  /// What is left of the number that picks the emitter is used for its first place: photons of one emitter are then as
+  /// well spread as those of all.
+  EmittedPhoton sample(const EmissionNumbers& u) const;
+  /// From a chosen emitter, whatever its guide; beta as if all photons came from it.
+  EmittedPhoton sampleUnguided(std::size_t emitter, const EmissionPlace& u) const;
+  /// How `rest` and `others` are dealt out for a chosen emitter.
+  EmissionPlace placeFor(std::size_t emitter, double rest, const std::array<float, 3>& others) const;
   /// Light from far away: suns and the environment, which guides are made for.
   bool isDistant(std::size_t emitter) const;
   /// "the light 'Sun'", "the sky in SKY.hdr", for people.
@@ -99,9 +102,9 @@ class EmitterTable {
   void buildTable();
   int subdivisions(std::uint32_t triangle) const;
   int subdivisions(std::uint32_t triangle, const TextureUse& use) const;
-  EmittedPhoton emitFromTriangle(const Emitter& e, const EmissionSample& u) const;
-  EmittedPhoton emitFromLight(const Emitter& e, const EmissionSample& u) const;
-  EmittedPhoton emitFromSky(const EmissionSample& u) const;
+  EmittedPhoton emitFromTriangle(const Emitter& e, const EmissionPlace& u) const;
+  EmittedPhoton emitFromLight(const Emitter& e, const EmissionPlace& u) const;
+  EmittedPhoton emitFromSky(const EmissionPlace& u) const;
   EmittedPhoton fromDisc(Vec3f direction, Vec2f u, Rgb beta) const;
 
   const Scene* scene_;

@@ -43,12 +43,6 @@ inline constexpr int kStreamBits = 3;
 
 enum class SamplerKind : std::uint8_t { random, sobol };
 
-/// What chooses the emitter, and the side of it: the block (event 0, emitter), made once.
-struct EmitterNumbers {
-  double pick;  // 53 bits
-  float side;
-};
-
 /// The emission in four numbers, the block (event 0, emission) made once: what is left of `pick` inside the interval of
 /// the emitter that it chose, stretched to [0, 1), is the first number of the position, so that the photons of each
 /// emitter are stratified among themselves in all that follows. A pick from another block would deal them out at
@@ -79,12 +73,6 @@ class RandomSampler {
   std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
     return detail::toUnitFloats(words(event, stream));
   }
-  EmitterNumbers emitter() const {
-    const auto w = words(0, Stream::emitter);
-    return {toUnitDouble(w[0], w[1]), toUnitFloat(w[2])};
-  }
-  double pick() const { return emitter().pick; }
-  float side() const { return emitter().side; }
   EmissionNumbers emission() const {
     const auto w = words(0, Stream::emitter), u = words(0, Stream::emission);
     return {toUnitDouble(w[0], w[1]), {toUnitFloat(u[1]), toUnitFloat(u[2]), toUnitFloat(u[3])}};
@@ -110,13 +98,6 @@ class SobolSampler {
   std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
     return detail::toUnitFloats(words(event, stream));
   }
-  /// Pick and side are dimensions 0 and 1.
-  EmitterNumbers emitter() const {
-    const auto w = words(0, Stream::emitter);
-    return {fine(w[0]), toUnitFloat(w[1])};
-  }
-  double pick() const { return emitter().pick; }
-  float side() const { return emitter().side; }
   EmissionNumbers emission() const {
     const auto w = words(0, Stream::emission);
     return {fine(w[0]), {toUnitFloat(w[1]), toUnitFloat(w[2]), toUnitFloat(w[3])}};
@@ -154,7 +135,7 @@ class PhotonSampler {
   std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
     return detail::toUnitFloats(words(event, stream));
   }
-  EmitterNumbers emitter() const { return kind_ == SamplerKind::random ? random_.emitter() : sobol_.emitter(); }
+  EmissionNumbers emission() const { return kind_ == SamplerKind::random ? random_.emission() : sobol_.emission(); }
 
  private:
   SamplerKind kind_;

@@ -83,7 +83,7 @@ GlassPart SurfaceTable::glass(const SurfacePlace& at, bool inside) const {
   part.share = glassShare(v);
   part.glass.tint = clampUnit(v.baseColor);
   part.glass.reflectance = clampUnit(v.specularColor * std::clamp(v.specular, 0.f, 1.f));
-  part.glass.eta = inside && m.ior > 0 ? 1 / m.ior : m.ior;
+  part.glass.eta = inside && entry.solid && m.ior > 0 ? 1 / m.ior : m.ior;
   part.glass.alpha = alphaOf(v.roughness);
   part.glass.thin = !entry.solid;
   part.table = glassTables_[at.material].get();

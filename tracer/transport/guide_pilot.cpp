@@ -54,7 +54,8 @@ void tracePilot(const PhotonScene& scene, std::size_t emitter, const EmissionGui
     const FlushDenormals mode;
     for (std::uint64_t i = range.begin(); i < range.end(); ++i) {
       const PhotonSampler sampler(seed, first + i);
-      const EmissionSample u = emissionSample(sampler);
+      const EmissionNumbers numbers = sampler.emission();
+      const EmissionPlace u = scene.emitters().placeFor(emitter, numbers.pick, numbers.others);
       LightSum sink;
       Ledger ledger;
       PhotonPath<kAll, LightSum> path(scene, sampler, limits, sink, ledger);

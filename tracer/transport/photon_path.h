@@ -21,7 +21,7 @@ class PhotonPath {
              Ledger& ledger)
       : scene_(scene), surfaces_(scene.surfaces()), sampler_(sampler), limits_(limits), sink_(sink), ledger_(ledger) {}
 
-  void trace() { trace(scene_.emitters().sample(emissionSample(sampler_))); }
+  void trace() { trace(scene_.emitters().sample(sampler_.emission())); }
   void trace(const EmittedPhoton& photon) {
     emit(photon);
     for (std::uint32_t event = 1; step(event); ++event) {
