@@ -224,6 +224,7 @@ SceneResult measure(const std::string& name, const Scene& scene, double seconds)
   options.keepAllDirections = true;
   const BakePlan plan = makePlan(scene, options);
   auto photonScene = std::make_unique<PhotonScene>(scene);
+  result.rayCaster = photonScene->rayCaster().description();
   result.texels = plan.layout.texelCount;
   result.tallyBytes = plan.tallies.bytes();
   {

@@ -17,7 +17,7 @@ struct Spread {
 };
 
 struct SceneResult {
-  std::string name;
+  std::string name, rayCaster;  // rayCaster: RayCaster::description()
   std::uint64_t triangles = 0, texels = 0;
   std::uint64_t sceneBytes = 0, embreeBytes = 0, tallyBytes = 0;  // of the arrays of Scene; one copy of the tallies
   bool sharedTallies = false;                                     // as PhotonRun decides for two threads

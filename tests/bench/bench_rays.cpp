@@ -12,7 +12,6 @@
 #include "tests/bench/bench_measure.h"
 #include "tests/bench/bench_scenes.h"
 #include "tracer/scene/gltf_reader.h"
-#include "tracer/transport/ray_caster.h"
 
 namespace lucarne::bench {
 namespace {
@@ -72,23 +71,15 @@ json toJson(const SceneResult& r) {
           {"two_threads_over_one_quartiles", quartiles(r.twoThreadsOverOne)}};
 }
 
-json versions() {
-  std::string embree;
-  {
-    const Scene empty;
-    embree = RayCaster(empty).description();
-  }
-  return {{"lucarne", buildName()}, {"embree", embree}, {"compiler", __VERSION__}};
-}
-
 void printJson(const std::vector<SceneResult>& results, const Arguments& arguments) {
   const HostDescription host = describeHost();
   json scenes = json::array();
   for (const SceneResult& r : results) scenes.push_back(toJson(r));
-  const json all{{"machine", {{"cpu", host.cpu}, {"cores", host.threads}, {"system", host.system}}},
-                 {"versions", versions()},
-                 {"smooth_normals", arguments.smooth},
-                 {"scenes", scenes}};
+  const json all{
+      {"machine", {{"cpu", host.cpu}, {"cores", host.threads}, {"system", host.system}}},
+      {"versions", {{"lucarne", buildName()}, {"embree", results.front().rayCaster}, {"compiler", __VERSION__}}},
+      {"smooth_normals", arguments.smooth},
+      {"scenes", scenes}};
   std::fputs(dumpJson(all).c_str(), stdout);
 }
 

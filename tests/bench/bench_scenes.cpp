@@ -94,7 +94,7 @@ void addArch(Scene& scene, Vec3d middle, std::uint32_t material, bool smooth) {
   addGrid(scene, 24, 64, material, smooth, [&](double u, double v) {
     const Vec2d section = onCircle(u), along = onCircle(0.5 * v);
     const double r = kBay / 2 + 0.2 * section.x;
-    return middle + Vec3d{r * along.x, 0.6 * r * along.y, 0.2 * section.y};
+    return middle + Vec3d{r * along.x, 0.6 * r * along.y, -0.2 * section.y};
   });
 }
 
@@ -106,12 +106,15 @@ void addDrape(Scene& scene, Vec3d corner, std::uint32_t material, bool smooth) {
   });
 }
 
+/// Galleries, and a plinth and a capital for each column: its ends and those of the arches are inside them.
 void addHallBoxes(SceneBuilder& builder, const Palette& m) {
   for (const double z : {0.05, 10.45}) builder.addBox({0.05, kStorey - 0.35, z}, {29.95, kStorey, z + 3.5}, m.grey);
   for (int i = 0; i < 2 * kColumns; ++i) {
     const double x = kFirstColumn + kBay * (i % kColumns), z = i < kColumns ? 3.0 : 11.0;
-    builder.addBox({x - 0.45, 0.02, z - 0.45}, {x + 0.45, 0.3, z + 0.45}, m.white);
-    builder.addBox({x - 0.45, kStorey + 0.02, z - 0.45}, {x + 0.45, kStorey + 0.3, z + 0.45}, m.white);
+    for (const double floor : {0.0, kStorey}) {
+      builder.addBox({x - 0.45, floor + 0.02, z - 0.45}, {x + 0.45, floor + 0.3, z + 0.45}, m.white);
+      builder.addBox({x - 0.45, floor + 3.2, z - 0.45}, {x + 0.45, floor + 3.5, z + 0.45}, m.white);
+    }
   }
 }
 
@@ -127,9 +130,9 @@ Scene makeHall(bool smooth) {
   for (int storey = 0; storey < 2; ++storey) {
     for (const double z : {3.0, 11.0}) {
       for (int i = 0; i < kColumns; ++i) {
-        const Vec3d foot{kFirstColumn + kBay * i, storey * kStorey + 0.3, z};
-        addColumn(scene, foot, 3.1, m.white, smooth);
-        if (i + 1 < kColumns) addArch(scene, foot + Vec3d{kBay / 2, 3.1, 0}, m.grey, smooth);
+        const Vec3d foot{kFirstColumn + kBay * i, storey * kStorey + 0.25, z};
+        addColumn(scene, foot, 3.0, m.white, smooth);
+        if (i + 1 < kColumns) addArch(scene, foot + Vec3d{kBay / 2, 3.2, 0}, m.grey, smooth);
       }
     }
   }
