@@ -9,6 +9,7 @@
 #include "app/bake_report.h"
 #include "app/bake_resume.h"
 #include "app/load_scene.h"
+#include "app/trace_variant.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/memory.h"
@@ -70,6 +71,7 @@ void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, c
     if (root && options.checkpointSeconds > 0) folder.save(state.header, packed.glb, state.tallies);
     return;
   }
+  if (root) state.variantSpeedup = traceVariantSpeedup(scene);
   const TexelMap map(packed.scene, plan.charts, plan.layout, plan.tallies);
   ProgressLine progress("baking", range.size(), options.quiet || !root);
   progress.startFrom(state.header.photons.count(), state.header.ledger.rays);

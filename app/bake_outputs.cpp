@@ -71,6 +71,7 @@ nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, con
   }
   if (!maps || options.keepPart) publishPart(options, packed, state, folder);
   folder.remove();
+  report["trace_variant_speedup"] = state.variantSpeedup;
   report["checkpoints"] = state.checkpoints;
   report["checkpoint_seconds"] = state.checkpointSeconds;
   return writeReport(options, report);

@@ -2,6 +2,7 @@
 
 #include "app/bake_identity.h"
 #include "app/ledger_json.h"
+#include "app/trace_variant.h"
 #include "base/units.h"
 #include "dlm/resolve.h"
 
@@ -75,6 +76,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["content_hash"] = in.header.content.hex();
   report["left_out"] = leftOut(in.scene, in.plan, in.options.directions);
   report["ray_caster"] = rayCasters(in.header.makers);
+  report["trace_variant"] = traceVariant(in.scene);
   report["threads"] = threadCount(in.options);
   report["ranks"] = in.options.ranks;
   if (in.baked == nullptr) return report;

@@ -22,7 +22,7 @@ struct ReportInput {
 nlohmann::json makeReport(const ReportInput& input);
 
 /// Keys whose values differ from run to run of one bake.
-inline constexpr std::array kRunKeys = {"seconds", "photons_per_second", "rays_per_second",    "threads",
+inline constexpr std::array kRunKeys = {"seconds", "photons_per_second", "rays_per_second", "trace_variant_speedup", "threads",
                                         "ranks",   "checkpoints",        "checkpoint_seconds", "peak_memory_bytes"};
 
 /// Nothing that differs from run to run of the same bake, on one machine or on many.

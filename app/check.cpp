@@ -2,11 +2,14 @@
 
 #include <chrono>
 
+#include "app/bake_environment.h"
+#include "app/bake_scene.h"
 #include "app/check_features.h"
 #include "app/check_layout.h"
 #include "app/check_lights.h"
 #include "app/check_time.h"
 #include "app/load_scene.h"
+#include "app/trace_variant.h"
 #include "base/memory.h"
 
 namespace lucarne {
@@ -33,6 +36,7 @@ nlohmann::json sectionsOf(const CheckInput& in) {
   checked["layout"] = checkLayout(in, warnings);
   checked["resources"] = checkResources(in, warnings);
   checked["time"] = checkTime(in, checked["layout"], warnings);
+  checked["time"]["variant"] = traceVariant(in.scene());
   checked["warnings"] = warnings.list();
   return checked;
 }
@@ -44,7 +48,10 @@ nlohmann::json checkScene(const BakeOptions& options) {
   checkMachine(options);
   const auto start = std::chrono::steady_clock::now();
   const PackedScene packed = loadScene(options);
-  const PhotonScene photonScene(packed.scene, RayCasterOptions{options.isa, true});
+  const std::unique_ptr<Environment> sky = makeEnvironment(loadSky(options), options);
+  PhotonScene photonScene(packed.scene, RayCasterOptions{options.isa, true}, sky.get());
+  BakeOptions guided = options;
+  prepareEmission(photonScene, guided);
   const BakePlan plan = makePlan(packed.scene, options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sectionsOf({options, photonScene, plan, packed.glb.size(), seconds, peakMemoryBytes()});

@@ -15,7 +15,9 @@ struct Source {
   std::size_t triangles = 0;
   bool textured = false;
   bool emissive() const { return kind == "emissive"; }
-  const char* unit() const { return emissive() ? "cd/m²" : kind == "directional" ? "lx" : "cd"; }
+  const char* unit() const {
+    return emissive() || kind == "environment" ? "cd/m²" : kind == "directional" ? "lx" : "cd";
+  }
 };
 
 /// `flux` (mean over channels) in the colour of `light`.
@@ -83,17 +85,32 @@ std::vector<Source> emissiveSources(const CheckInput& input, const std::vector<d
   return sources;
 }
 
+/// The sky around the scene: its mean radiance, and the flux that comes through the sphere about it.
+Source skySource(const Environment& sky, double flux) {
+  Source s;
+  s.name = sky.name();
+  s.kind = "environment";
+  s.intensity = sky.meanRadiance();
+  s.flux = coloured(flux, s.intensity);
+  return s;
+}
+
 std::vector<Source> sourcesOf(const CheckInput& input) {
   std::vector<double> byTriangle(input.scene().triangles.size()), byLight(input.scene().lights.size());
-  input.photonScene.emitters().forEachSource([&](std::uint32_t triangle, std::uint32_t light, double flux) {
+  double fromSky = 0;
+  const EmitterTable& emitters = input.photonScene.emitters();
+  emitters.forEachSource([&](std::uint32_t triangle, std::uint32_t light, double flux) {
     if (triangle != kNone) {
       byTriangle[triangle] += flux;
-    } else if (light != kNone) {
+    } else if (light == EmitterTable::kSky) {
+      fromSky = flux;
+    } else {
       byLight[light] += flux;
     }
   });
   std::vector<Source> sources = punctualSources(input, byLight);
   for (Source& s : emissiveSources(input, byTriangle)) sources.push_back(std::move(s));
+  if (emitters.environment() != nullptr) sources.push_back(skySource(*emitters.environment(), fromSky));
   std::stable_sort(sources.begin(), sources.end(),
                    [](const Source& a, const Source& b) { return luminance(a.flux) > luminance(b.flux); });
   return sources;

@@ -164,6 +164,7 @@ void writeTime(const Json& time, Sections& out) {
                (time["sampled_tally_bytes"] > 0 ? "" : " (storing nothing)") + ", " + number(time["rays_per_photon"]) +
                " rays a photon",
            2);
+  out.line("tracing loop: " + time["variant"]["name"].get<std::string>());
   out.line("reading and layout before it took " + formatDuration(time["seconds_of_setup"].get<double>()));
   out.line(amount(time["photons_per_texel"].get<double>()) + " photons fall into a texel, on average");
   out.line("of the light " + formatPercent(time["missed"].get<double>()) + " meets no surface, " +

@@ -40,7 +40,7 @@ void finishPiece(BakeOptions& options, const BakeTexts& texts, bool photonsGiven
 
 void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
   if (!texts.scene.empty()) options.scene = texts.scene;
-  if (!texts.environment.empty()) options.environment = texts.environment;
+  finishSky(options, texts.environment);
   if (!texts.report.empty()) options.report = texts.report;
   finishLayout(options, texts.layout);
   options.seed = parseCount("--seed", texts.seed);
@@ -64,17 +64,6 @@ void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   addChoice<LightPart>(cmd, "--light", o.light,
                        {{"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
                        "all", "which light to store: all, direct or indirect");
-}
-
-void addSky(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
-  cmd.add_option("--environment", texts.environment,
-                 "SKY.exr or SKY.hdr: an equirectangular map in cd/m² around the scene, +y up, its middle toward +x");
-  cmd.add_option("--environment-scale", o.environmentScale, "times the values of the map")->capture_default_str();
-  cmd.add_option("--environment-turn", o.environmentTurn,
-                 "degrees that the map is turned about the vertical, counter-clockwise from above; whole columns")
-      ->capture_default_str();
-  cmd.add_flag("!--no-guide", o.guidedEmission,
-               "do not aim the light of suns and skies at where a pilot finds it useful (windows)");
 }
 
 void addPieces(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
@@ -118,7 +107,9 @@ void addBake(CLI::App& app, Action& action) {
   cmd->add_option("-o,--output", options->output, "the light maps, a folder NAME.dlm; NAME.part for a part")
       ->required();
   addQuality(*cmd, *options, *texts);
-  addSky(*cmd, *options, *texts);
+  addSkyOptions(*cmd, *options, texts->environment);
+  cmd->add_flag("!--no-guide", options->guidedEmission,
+                "do not aim the light of suns and skies at where a pilot finds it useful (windows)");
   addPieces(*cmd, *options, *texts);
   addRunning(*cmd, *options, *texts);
   cmd->callback([options, texts, cmd, &action] {

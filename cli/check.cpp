@@ -21,12 +21,15 @@ void addCheck(CLI::App& app, Action& action) {
   cmd->add_option("SCENE", *scene, "a .glb or .gltf file in metres; none: the built-in room");
   cmd->add_flag("--json", *json, "as JSON");
   addLayoutOptions(*cmd, *options, *texts);
+  const auto sky = std::make_shared<std::string>();
+  addSkyOptions(*cmd, *options, *sky);
   addMachineOptions(*cmd, *options);
   cmd->callback([=, &action] {
     action = [=] {
       setQuiet(true);  // what is to be said stands in the result
       if (!scene->empty()) options->scene = *scene;
       finishLayout(*options, *texts);
+      finishSky(*options, *sky);
       const nlohmann::json checked = checkScene(*options);
       std::fputs((*json ? dumpJson(checked) : checkText(checked)).c_str(), stdout);
     };

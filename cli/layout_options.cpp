@@ -23,6 +23,19 @@ void finishLayout(BakeOptions& o, const LayoutTexts& texts) {
   o.texelBudget = parseCount("--texels", texts.texels);
 }
 
+void addSkyOptions(CLI::App& cmd, BakeOptions& o, std::string& environment) {
+  cmd.add_option("--environment", environment,
+                 "SKY.exr or SKY.hdr: an equirectangular map in cd/m² around the scene, +y up, its middle toward +x");
+  cmd.add_option("--environment-scale", o.environmentScale, "times the values of the map")->capture_default_str();
+  cmd.add_option("--environment-turn", o.environmentTurn,
+                 "degrees that the map is turned about the vertical, counter-clockwise from above; whole columns")
+      ->capture_default_str();
+}
+
+void finishSky(BakeOptions& o, const std::string& environment) {
+  if (!environment.empty()) o.environment = environment;
+}
+
 void addMachineOptions(CLI::App& cmd, BakeOptions& o) {
   cmd.add_option("--threads", o.threads, "0: all; the result does not depend on it")->capture_default_str();
   addChoice<ChannelType>(cmd, "--format", o.format.directional,

@@ -18,6 +18,11 @@ void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts);
 /// After parsing: UsageError for texts that are no numbers.
 void finishLayout(BakeOptions& o, const LayoutTexts& texts);
 
+/// --environment, --environment-scale, --environment-turn. As above.
+void addSkyOptions(CLI::App& cmd, BakeOptions& o, std::string& environment);
+/// After parsing.
+void finishSky(BakeOptions& o, const std::string& environment);
+
 /// --threads and --format.
 void addMachineOptions(CLI::App& cmd, BakeOptions& o);
 

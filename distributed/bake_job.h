@@ -25,6 +25,7 @@ struct BakeState {
   // Of this run: how many states were saved on the way and at the end, and what that took.
   std::uint64_t checkpoints = 0;
   double checkpointSeconds = 0;
+  double variantSpeedup = 0;  // of the tracing loop over one that does everything; 0: not measured
 };
 
 /// The photons of `range` that `state` lacks. Throws Error(mergeRefused) naming `file` unless what it has is the

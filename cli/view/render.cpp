@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/layout_options.h"
 #include "cli/view/render_arguments.h"
 
 namespace lucarne {
@@ -35,9 +36,7 @@ void addRender(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   const auto sky = std::make_shared<std::string>();
-  cmd->add_option("--environment", *sky, "pathtraced: the SKY.exr or SKY.hdr that was baked with");
-  cmd->add_option("--environment-scale", job->sky.environmentScale, "pathtraced: as for bake")->capture_default_str();
-  cmd->add_option("--environment-turn", job->sky.environmentTurn, "pathtraced: as for bake")->capture_default_str();
+  addSkyOptions(*cmd, job->sky, *sky);
   cmd->add_option("--seed", job->sky.seed, "pathtraced: another seed gives other noise")->capture_default_str();
   cmd->add_option("--threads", job->sky.threads, "pathtraced: 0 for all")->capture_default_str();
   cmd->add_flag("--quiet", *quiet, "print errors only");
@@ -45,7 +44,7 @@ void addRender(CLI::App& app, Action& action) {
     action = [=] {
       setQuiet(*quiet);
       applySize(*size, job->options);
-      if (!sky->empty()) job->sky.environment = *sky;
+      finishSky(job->sky, *sky);
       checkSettings(job->sky);
       report(*job, render(*job));
     };

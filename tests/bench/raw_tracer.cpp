@@ -56,7 +56,7 @@ RawTracer::RawTracer(const PhotonScene& scene) : scene_(scene) {
   const Scene& s = scene.scene();
   if (scene.emitters().empty()) throw InputError("the scene emits no light: there is nothing to measure");
   for (std::uint32_t i = 0; i < s.materials.size(); ++i) {
-    const Bsdf bsdf = makeBsdf(s.materials[i], s.materials[i].baseColor, s.materials[i].metallic, 1);
+    const Bsdf bsdf = makeBsdf(s.materials[i], factorsOf(s.materials[i]));
     albedo_.push_back(std::min(maxComponent(albedo(bsdf, {0, 0, 1})), 0.95f));  // so that every path ends
   }
   for (const Triangle& t : s.triangles) materialOf_.push_back(static_cast<std::uint16_t>(t.material));
@@ -86,8 +86,8 @@ RawTracer::Ray RawTracer::emit(Random& random) const {
 }
 
 RawTracer::Ray RawTracer::emitFromTable(Random& random) const {
-  const Vec2f pick = random.pair();
-  const EmittedPhoton p = scene_.emitters().sample({static_cast<double>(pick.x), pick.y, random.pair(), random.pair()});
+  const Vec2f pick = random.pair(), others = random.pair();
+  const EmittedPhoton p = scene_.emitters().sample({static_cast<double>(pick.x), {pick.y, others.x, others.y}});
   return {Vec3f(p.position) + p.normal * kOffset, p.direction};
 }
 

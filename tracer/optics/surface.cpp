@@ -36,9 +36,32 @@ Bsdf makeBsdf(const Material& material, const MaterialValues& v) {
   return bsdf;
 }
 
+SceneFeatures featuresOf(const Scene& scene) {
+  SceneFeatures features;
+  std::vector<std::uint8_t> used(scene.materials.size(), 0);
+  for (const Triangle& t : scene.triangles) used[t.material] = 1;
+  const auto hasImage = [&](const TextureUse& use) {
+    return use && scene.textures[use.texture].image != kNone &&
+           !scene.images[scene.textures[use.texture].image].rgba.empty();
+  };
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0) continue;
+    const Material& m = scene.materials[i];
+    // Textures only scale down: what the factors leave without a coat has none anywhere.
+    features.coats |= !makeBsdf(m, factorsOf(m)).lambert();
+    features.textures |= !m.unlit && (hasImage(m.baseColorTexture) || hasImage(m.metallicRoughnessTexture) ||
+                                      hasImage(m.specularTexture) || hasImage(m.specularColorTexture) ||
+                                      hasImage(m.transmissionTexture));
+    features.normalMaps |= !m.unlit && hasImage(m.normalTexture) && !scene.tangents.empty();
+    features.holes |= m.hasAlpha() || (m.unlit && !m.doubleSided);
+    features.transmission |= m.transmits();
+  }
+  return features;
+}
+
 SurfaceTable::SurfaceTable(const Scene& scene) : scene_(&scene) {
   for (const Material& m : scene.materials) addMaterial(m);
-  findFeatures();
+  features_ = featuresOf(scene);
   collectCorners();
 }
 
@@ -88,21 +111,6 @@ GlassPart SurfaceTable::glass(const SurfacePlace& at, bool inside) const {
   part.glass.thin = !entry.solid;
   part.table = glassTables_[at.material].get();
   return part;
-}
-
-void SurfaceTable::findFeatures() {
-  std::vector<std::uint8_t> used(entries_.size(), 0);
-  for (const Triangle& t : scene_->triangles) used[t.material] = 1;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    if (used[i] == 0) continue;
-    const Entry& e = entries_[i];
-    // Textures only scale down: what the factors leave without a coat has none anywhere.
-    features_.coats |= !e.constant.lambert();
-    features_.textures |= e.textured;
-    features_.normalMaps |= e.normalMap && !scene_->tangents.empty();
-    features_.holes |= e.holes;
-    features_.transmission |= e.transmits;
-  }
 }
 
 void SurfaceTable::collectCorners() {

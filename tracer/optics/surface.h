@@ -51,6 +51,8 @@ struct SceneFeatures {
   friend constexpr bool operator==(const SceneFeatures&, const SceneFeatures&) = default;
 };
 
+SceneFeatures featuresOf(const Scene& scene);
+
 /// A place on a triangle.
 struct SurfacePlace {
   std::uint32_t material, triangle;
@@ -70,6 +72,7 @@ class SurfaceTable {
   /// `scene` must outlive this.
   explicit SurfaceTable(const Scene& scene);
 
+  /// featuresOf() the scene.
   const SceneFeatures& features() const { return features_; }
 
   /// The opaque part of the BSDF. `scratch` holds the answer where textures make it.
@@ -121,7 +124,6 @@ class SurfaceTable {
   };
   void addGlass(const Material& material, const Readers& readers);
   void addMaterial(const Material& material);
-  void findFeatures();
   void collectCorners();
   Vec2f uv(const TextureReader& texture, std::uint32_t triangle, Vec2f b) const;
   Rgb read(const TextureReader& texture, const SurfacePlace& at) const {
