@@ -5,8 +5,10 @@
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 #include "base/float_mode.h"
+#include "tracer/transport/guide_cells.h"
 #include "tracer/transport/photon_path.h"
 #include "tracer/transport/photon_variants.h"
 
@@ -14,145 +16,118 @@ namespace lucarne {
 namespace {
 
 constexpr std::uint64_t kPilotSeed = 0x6775696465'70696cu;  // a key that no seed of a bake is mixed with
-constexpr double kWorthwhileGain = 1.1;
+constexpr double kWorthwhileGain = 1.2;
 constexpr std::size_t kMostGuides = 16;
-constexpr double kSquareUnit = 0x1p-16;
 
-/// Light that one photon leaves on surfaces, in units of its flux.
-struct LightSum {
-  float light = 0;
-  void hit(const PhotonHit& h) { light += luminance(h.beta); }
+void addTo(std::uint64_t& sum, std::uint64_t value) {
+  std::atomic_ref<std::uint64_t>(sum).fetch_add(value, std::memory_order_relaxed);
+}
+
+/// Light that falls on each triangle, in integers.
+class TriangleLight {
+ public:
+  explicit TriangleLight(const PhotonScene& scene) : units_(scene.scene().triangles.size()) {
+    for (std::uint32_t t = 0; t < units_.size(); ++t) {
+      areas_.push_back(0.5 * length(scene.scene().scaledNormal(t)));
+      area_ += areas_.back();
+    }
+  }
+  void add(std::uint32_t triangle, float light) { addTo(units_[triangle], static_cast<std::uint64_t>(light * kUnit)); }
+
+  /// By triangle the inverse square of its irradiance over the mean: an error counts by how large it is to what is
+  /// there. Triangles that met few photons are drawn toward the mean.
+  std::vector<float> weights() const {
+    double all = 0;
+    for (const std::uint64_t u : units_) all += static_cast<double>(u) / kUnit;
+    constexpr double kPull = 3, kDimmest = 0.01, kBrightest = 100;
+    std::vector<float> weights;
+    for (std::size_t t = 0; t < units_.size(); ++t) {
+      const double expected = area_ > 0 ? all * areas_[t] / area_ : 0;
+      const double ratio = (static_cast<double>(units_[t]) / kUnit + kPull) / (expected + kPull);
+      const double clamped = std::clamp(ratio, kDimmest, kBrightest);
+      weights.push_back(static_cast<float>(1 / (clamped * clamped)));
+    }
+    return weights;
+  }
+
+ private:
+  static constexpr float kUnit = 0x1p16f;
+  std::vector<std::uint64_t> units_;
+  std::vector<double> areas_;
+  double area_ = 0;
+};
+
+struct PilotSink {
+  TriangleLight* light;               // null: not asked for
+  const std::vector<float>* weights;  // by triangle; null: not known yet
+  float square = 0;                   // Σ weight · beta² over the hits
+  bool used = false;
+
+  void hit(const PhotonHit& h) {
+    const float beta = luminance(h.beta);
+    used = true;
+    if (light != nullptr) light->add(h.hit.triangle, beta);
+    if (weights != nullptr) square += (*weights)[h.hit.triangle] * beta * beta;
+  }
   void endPhoton() {}
 };
 
-/// Sums by cell of what pilot photons did, in integers.
-struct CellSums {
-  std::vector<std::uint64_t> photons, rays, squares;
-  std::atomic<std::uint64_t> wasted{0};
-  explicit CellSums(std::size_t cells) : photons(cells), rays(cells), squares(cells) {}
-
-  void add(std::size_t cell, std::uint64_t rayCount, float light) {
-    const auto plus = [](std::uint64_t& sum, std::uint64_t value) {
-      std::atomic_ref<std::uint64_t>(sum).fetch_add(value, std::memory_order_relaxed);
-    };
-    constexpr float kMost = 256;
-    const auto square = static_cast<double>(std::min(light, kMost)) * static_cast<double>(std::min(light, kMost));
-    plus(photons[cell], 1);
-    plus(rays[cell], rayCount);
-    plus(squares[cell], static_cast<std::uint64_t>(square / kSquareUnit + 0.5));
-    if (!(light > 0)) wasted.fetch_add(1, std::memory_order_relaxed);
-  }
-};
-
-void tracePilot(const PhotonScene& scene, std::size_t emitter, const EmissionGuide& grid,
-                const GuidePilotOptions& options, CellSums& sums) {
+/// Traces photons `range` of the pilot of one emitter; tell(place, rays, sink) after each, from any thread.
+void tracePilot(const PhotonScene& scene, std::size_t emitter, IndexRange range, const GuidePilotOptions& options,
+                PilotSink start,
+                const std::function<void(const EmissionPlace&, std::uint64_t, const PilotSink&)>& tell) {
   constexpr SceneFeatures kAll = kPhotonVariants[kGeneralVariant].features;
   const TraceLimits limits;
   const PhotonSeed seed(options.seed ^ kPilotSeed, SamplerKind::sobol);
-  const std::uint64_t first = std::uint64_t{emitter} * options.photons;
-  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, options.photons, 1024), [&](const auto& range) {
+  const std::uint64_t first = std::uint64_t{emitter} * options.photons * 2;
+  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(range.begin, range.end, 1024), [&](const auto& block) {
     const FlushDenormals mode;
-    for (std::uint64_t i = range.begin(); i < range.end(); ++i) {
+    for (std::uint64_t i = block.begin(); i < block.end(); ++i) {
       const PhotonSampler sampler(seed, first + i);
       const EmissionNumbers numbers = sampler.emission();
-      const EmissionPlace u = scene.emitters().placeFor(emitter, numbers.pick, numbers.others);
-      LightSum sink;
+      const EmissionPlace place = scene.emitters().placeFor(emitter, numbers.pick, numbers.others);
+      PilotSink sink = start;
       Ledger ledger;
-      PhotonPath<kAll, LightSum> path(scene, sampler, limits, sink, ledger);
-      path.trace(scene.emitters().sampleUnguided(emitter, u));
-      sums.add(grid.cellOf(u.direction, u.position), ledger.rays, sink.light);
+      PhotonPath<kAll, PilotSink> path(scene, sampler, limits, sink, ledger);
+      path.trace(scene.emitters().sampleUnguided(emitter, place));
+      tell(place, ledger.rays, sink);
     }
   });
 }
 
-/// Mean by cell of (square, rays), drawn toward the mean of 2 × 2 × 4 × 4 cells around by as much as a few photons
-/// weigh: most cells see only a few dozen.
-class SmoothedCells {
- public:
-  SmoothedCells(const GuideGrid& grid, const CellSums& sums) : grid_(grid), sums_(sums) {
-    coarse_ = {std::max(grid.direction / 2, 1u), std::max(grid.place / 4, 1u)};
-    parents_.resize(coarse_.cells());
-    for (std::size_t c = 0; c < sums.photons.size(); ++c) add(parents_[parentOf(c)], c);
-    for (std::size_t c = 0; c < sums.photons.size(); ++c) add(whole_, c);
+/// A quarter of the pilot says how bright triangles are; then light is counted by cells, half of it to learn from and
+/// half to judge what was learnt.
+GuidePilotResult learnGuide(PhotonScene& scene, std::size_t emitter, const GuidePilotOptions& options) {
+  const bool isSky = scene.emitters().hasSky() && emitter + 1 == scene.emitters().size();
+  const GuideGrid grid = isSky ? GuideGrid{8, 32} : GuideGrid{1, 128};
+  TriangleLight light(scene);
+  tracePilot(scene, emitter, {0, options.photons / 4}, options, {&light, nullptr},
+             [](const EmissionPlace&, std::uint64_t, const PilotSink&) {});
+  const std::vector<float> weights = light.weights();
+  const EmissionGuide places(grid, std::vector<double>(grid.cells(), 0.0));
+  GuideCells learnt(grid), judged(grid);
+  std::atomic<std::uint64_t> wasted{0}, turn{0};
+  for (GuideCells* cells : {&learnt, &judged}) {
+    const std::uint64_t begin = options.photons / 4 + turn++ * options.photons;
+    tracePilot(scene, emitter, {begin, begin + options.photons}, options, {nullptr, &weights},
+               [&](const EmissionPlace& place, std::uint64_t rays, const PilotSink& sink) {
+                 cells->add(places.cellOf(place.direction, place.position), rays, sink.square);
+                 if (!sink.used) wasted.fetch_add(1, std::memory_order_relaxed);
+               });
   }
-  struct Mean {
-    double square, cost;
-  };
-  Mean at(std::size_t cell) const {
-    constexpr double kPull = 4;
-    const Mean parent = blend(parents_[parentOf(cell)], meanOf(whole_), 1);
-    Sums own{};
-    add(own, cell);
-    return blend(own, parent, kPull);
-  }
-
- private:
-  struct Sums {
-    double photons = 0, rays = 0, squares = 0;
-  };
-  static Mean meanOf(const Sums& s) { return {s.squares / s.photons, s.rays / s.photons}; }
-  static Mean blend(const Sums& s, Mean prior, double pull) {
-    return {(s.squares + pull * prior.square) / (s.photons + pull), (s.rays + pull * prior.cost) / (s.photons + pull)};
-  }
-  void add(Sums& into, std::size_t cell) const {
-    into.photons += static_cast<double>(sums_.photons[cell]);
-    into.rays += static_cast<double>(sums_.rays[cell]);
-    into.squares += static_cast<double>(sums_.squares[cell]) * kSquareUnit;
-  }
-  std::size_t parentOf(std::size_t cell) const {
-    const auto axis = [&cell](std::uint32_t n, std::uint32_t coarse) {
-      const std::size_t i = cell % n;
-      cell /= n;
-      return i * coarse / n;
-    };
-    const std::size_t py = axis(grid_.place, coarse_.place), px = axis(grid_.place, coarse_.place);
-    const std::size_t dy = axis(grid_.direction, coarse_.direction), dx = axis(grid_.direction, coarse_.direction);
-    return ((dx * coarse_.direction + dy) * coarse_.place + px) * coarse_.place + py;
-  }
-
-  GuideGrid grid_, coarse_;
-  const CellSums& sums_;
-  std::vector<Sums> parents_;
-  Sums whole_;
-};
-
-/// Variance × cost of the two densities: Σ m/w · Σ w·c over equal cells, w the density.
-double gainOf(const SmoothedCells& cells, const EmissionGuide& guide) {
-  double plainSquare = 0, plainCost = 0, square = 0, cost = 0;
-  for (std::size_t c = 0; c < guide.grid().cells(); ++c) {
-    const SmoothedCells::Mean m = cells.at(c);
-    const double w = guide.densityOf(c);
-    plainSquare += m.square;
-    plainCost += m.cost;
-    square += m.square / w;
-    cost += m.cost * w;
-  }
-  return square * cost > 0 ? plainSquare * plainCost / (square * cost) : 1;
+  GuideChoice choice = chooseGuide(learnt, judged);
+  const double share = static_cast<double>(wasted.load()) / static_cast<double>(2 * options.photons);
+  const bool worthwhile = choice.gain > kWorthwhileGain;
+  if (worthwhile) scene.setGuide(emitter, std::move(choice.guide));
+  return {emitter, share, choice.gain, worthwhile};
 }
 
 }  // namespace
 
 std::vector<GuidePilotResult> learnGuides(PhotonScene& scene, const GuidePilotOptions& options) {
   std::vector<GuidePilotResult> results;
-  for (std::size_t e = 0; e < scene.emitters().size() && results.size() < kMostGuides; ++e) {
-    if (!scene.emitters().isDistant(e)) continue;
-    const bool isSky = scene.emitters().hasSky() && e + 1 == scene.emitters().size();
-    const GuideGrid grid = isSky ? GuideGrid{8, 16} : GuideGrid{1, 64};
-    const EmissionGuide uniform(grid, std::vector<double>(grid.cells(), 0.0));
-    CellSums sums(grid.cells());
-    tracePilot(scene, e, uniform, options, sums);
-    const SmoothedCells cells(grid, sums);
-    std::vector<double> usefulness(grid.cells());
-    for (std::size_t c = 0; c < usefulness.size(); ++c) {
-      const SmoothedCells::Mean m = cells.at(c);
-      usefulness[c] = std::sqrt(m.square / m.cost);
-    }
-    EmissionGuide guide(grid, usefulness);
-    const double gain = gainOf(cells, guide);
-    results.push_back({e, static_cast<double>(sums.wasted.load()) / static_cast<double>(options.photons), gain,
-                       gain > kWorthwhileGain});
-    if (results.back().guided) scene.setGuide(e, std::move(guide));
-  }
+  for (std::size_t e = 0; e < scene.emitters().size() && results.size() < kMostGuides; ++e)
+    if (scene.emitters().isDistant(e)) results.push_back(learnGuide(scene, e, options));
   return results;
 }
 

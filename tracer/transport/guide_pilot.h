@@ -9,7 +9,7 @@ namespace lucarne {
 
 struct GuidePilotOptions {
   std::uint64_t seed = 0;                          // of the bake
-  std::uint64_t photons = std::uint64_t{1} << 18;  // for each distant emitter
+  std::uint64_t photons = std::uint64_t{1} << 17;  // to learn from, for each distant emitter; as many to judge
 };
 
 /// What the pilot of one distant emitter found.
@@ -22,9 +22,6 @@ struct GuidePilotResult {
 
 /// Traces the pilots and gives the scene its guides. They depend on the scene and the options alone: pilot photons have
 /// numbers that no photon of the bake has, and what they find is summed in integers.
-///
-/// Of all densities over cells that cost c a photon and whose photons leave light with a mean square of m, √(m/c) has
-/// the least variance at equal cost.
 std::vector<GuidePilotResult> learnGuides(PhotonScene& scene, const GuidePilotOptions& options);
 
 }  // namespace lucarne
