@@ -22,7 +22,7 @@ namespace lucarne::bench {
 namespace {
 
 constexpr std::uint64_t kChunk = 1024;  // photons between two looks at the clock
-constexpr double kSlice = 0.4;          // seconds
+constexpr double kSlice = 0.1;          // seconds: what else the machine does changes little within a round
 constexpr int kLeastRounds = 9;
 // All 14 directions on every side, as glossy scenes need them; on diffuse ones a bake would keep one map. Light maps of
 // this many texels are far larger than the caches.
@@ -230,7 +230,7 @@ SceneResult measure(const std::string& name, const Scene& scene, double seconds)
   {
     Contest contest(*photonScene, plan);
     result.sharedTallies = contest.sharedTallies();
-    contest.run(0, kSlice / 2);  // to fill the caches and touch the tallies
+    contest.run(0, 4 * kSlice);  // to fill the caches and touch the tallies
     const int count = std::max(kLeastRounds, static_cast<int>(seconds / (4 * kSlice)));
     std::vector<Contest::Round> rounds;
     for (int i = 0; i < count; ++i) rounds.push_back(contest.run(i, seconds / (4 * count)));
