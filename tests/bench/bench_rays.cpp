@@ -20,7 +20,7 @@ using nlohmann::json;
 
 struct Arguments {
   bool json = false, smooth = false;
-  double seconds = 60;
+  double seconds = 45;
   std::vector<std::string> scenes;
 };
 
