@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/huge_allocator.h"
 #include "dlm/tally.h"
 #include "tracer/transport/photon_tracer.h"
 
@@ -34,7 +35,7 @@ class TexelMap {
   const Side& side(std::uint32_t i) const { return sides_[i]; }
 
  private:
-  std::vector<Entry> entries_;
+  std::vector<Entry, HugeAllocator<Entry>> entries_;
   std::vector<Side> sides_;
 };
 
@@ -57,7 +58,10 @@ class DepositSink {
         light_(tallies.light().data()),
         statistics_(tallies.statistics().data()) {}
 
-  void hit(const PhotonHit& h) {
+  /// What a hit on the triangle will read is asked for early.
+  void prefetch(std::uint32_t triangle) const { __builtin_prefetch(&map_[triangle]); }
+
+  [[gnu::always_inline]] void hit(const PhotonHit& h) {
     if (part_ != LightPart::all && (part_ == LightPart::direct) != (h.event == 1)) return;
     const TexelMap::Entry& entry = map_[h.hit.triangle];
     const std::uint32_t sideIndex = h.hit.back ? entry.back : entry.front;
@@ -150,7 +154,7 @@ class DepositSink {
     return h.beta * factor;
   }
 
-  void splat(std::uint64_t entry, std::uint64_t texel, const PhotonHit& h) {
+  [[gnu::always_inline]] void splat(std::uint64_t entry, std::uint64_t texel, const PhotonHit& h) {
     const Rgb value = received(h);
     Pending& slot = ring_[head_];
     head_ = (head_ + 1) % ring_.size();

@@ -6,6 +6,8 @@
 // every machine. ψ points away from the surface, toward the light.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -32,7 +34,21 @@ class DirectionSet {
 
   /// The ψ with the largest dot product with `w` (float arithmetic, smallest index on a tie). Exact and O(1) on
   /// average.
-  int nearest(Vec3f w) const;
+  [[gnu::always_inline]] int nearest(Vec3f w) const {
+    const float sum = std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
+    if (!(sum > 0) || !std::isfinite(sum)) return 0;
+    const float perSum = 1 / sum;
+    const float qx = w.x * perSum, qy = w.y * perSum;
+    const float fx = std::copysign(1 - std::abs(qy), qx), fy = std::copysign(1 - std::abs(qx), qy);
+    const float px = w.z < 0 ? fx : qx, py = w.z < 0 ? fy : qy;
+    const float half = 0.5f * static_cast<float>(gridSize_);
+    const int x = std::min(std::max(static_cast<int>((px + 1) * half), 0), gridSize_ - 1);
+    const int y = std::min(std::max(static_cast<int>((py + 1) * half), 0), gridSize_ - 1);
+    const auto cell = static_cast<std::size_t>(y * gridSize_ + x);
+    const std::uint16_t only = only_[cell];
+    if (only != kSeveral) [[likely]] return only;
+    return nearestOfSeveral(cell, w);
+  }
 
   /// Exact integrals over the cell of ψ above the plane of unit normal `n`; closed forms over spherical polygons.
   ClippedCell clippedCell(int psi, Vec3d n) const;
@@ -50,6 +66,8 @@ class DirectionSet {
     SphericalIntegral whole;
     double coneSine;  // sine of the cell's radius about ψ; 2 if that is not below 90 degrees
   };
+  static constexpr std::uint16_t kSeveral = 0xffff;
+  int nearestOfSeveral(std::size_t cell, Vec3f w) const;
   void buildCells();
   void buildLookup();
   SphericalIntegral above(int psi, Vec3d n) const;
@@ -63,6 +81,7 @@ class DirectionSet {
   int gridSize_ = 1;  // octahedral grid of candidate lists
   std::vector<std::uint32_t> gridFirst_;
   std::vector<std::uint16_t> gridCandidates_;
+  std::vector<std::uint16_t> only_;  // by cell: the one candidate, or kSeveral
 };
 
 }  // namespace lucarne

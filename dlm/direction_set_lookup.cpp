@@ -13,7 +13,7 @@ namespace {
 // dot products (below 1e-6 in all, w unit) and of w's place in the grid (below 1e-6, times |ψ' − ψ| <= 2).
 constexpr double kMargin = 1e-5;
 
-constexpr int kSmallestGrid = 32, kLargestGrid = 1024, kGridCellsPerDirection = 16;
+constexpr int kSmallestGrid = 64, kLargestGrid = 1024, kGridCellsPerDirection = 16;
 
 // The unit vector at a point of the square [-1, 1]²; the inner diamond is the upper half (z >= 0), the corners fold
 // down.
@@ -99,24 +99,11 @@ void DirectionSet::buildLookup() {
   for (const Candidates& list : lists) {
     gridCandidates_.insert(gridCandidates_.end(), list.begin(), list.end());
     gridFirst_.push_back(static_cast<std::uint32_t>(gridCandidates_.size()));
+    only_.push_back(list.size() == 1 ? list[0] : kSeveral);
   }
 }
 
-int DirectionSet::nearest(Vec3f w) const {
-  const float sum = std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
-  if (!(sum > 0) || !std::isfinite(sum)) return 0;
-  const float perSum = 1 / sum;
-  float px = w.x * perSum, py = w.y * perSum;
-  if (w.z < 0) {
-    const float folded = std::copysign(1 - std::abs(py), px);
-    py = std::copysign(1 - std::abs(px), py);
-    px = folded;
-  }
-  const float half = 0.5f * static_cast<float>(gridSize_);
-  const int x = std::clamp(static_cast<int>((px + 1) * half), 0, gridSize_ - 1);
-  const int y = std::clamp(static_cast<int>((py + 1) * half), 0, gridSize_ - 1);
-  const std::size_t cell = static_cast<std::size_t>(y * gridSize_ + x);
-
+int DirectionSet::nearestOfSeveral(std::size_t cell, Vec3f w) const {
   std::uint32_t k = gridFirst_[cell];
   int best = gridCandidates_[k];
   float largest = dot(directionsF_[static_cast<std::size_t>(best)], w);

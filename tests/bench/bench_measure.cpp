@@ -102,7 +102,7 @@ class Contest {
     const auto depositIn = [&](auto sink) -> Trace {
       return [&scene, sink, ledger = Ledger{}](IndexRange range) mutable {
         const std::uint64_t before = ledger.rays;
-        tracePhotons(scene, range, 0, {}, *sink, ledger);
+        tracePhotons(scene, range, PhotonSeed(0, BakeOptions{}.sampler), {}, *sink, ledger);
         return ledger.rays - before;
       };
     };

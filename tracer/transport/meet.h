@@ -18,11 +18,12 @@ struct RayStart {
   std::uint32_t from = kNone;
 };
 
-/// False where there is nothing. `goesThrough(hit, layer)` is asked at surfaces with holes, if `holes`; `layer` counts
+/// False where there is nothing. `found(triangle)` is called once, early, with what the ray comes to first.
+/// `goesThrough(hit, layer)` is asked at surfaces with holes, if `holes`; `layer` counts
 /// those that it went through before. `repeats`: see RayCaster::nearest().
-template <bool holes, class GoesThrough>
+template <bool holes, class Found, class GoesThrough>
 [[gnu::always_inline]] inline bool meetSurface(const PhotonScene& scene, const RayStart& ray, std::uint64_t& repeats,
-                                               GoesThrough&& goesThrough, Hit& hit) {
+                                               Found&& found, GoesThrough&& goesThrough, Hit& hit) {
   const RayCaster& caster = scene.rayCaster();
   const SurfaceTable& surfaces = scene.surfaces();
   // A lamp on a two-sided surface shines to both sides of it.
@@ -30,6 +31,9 @@ template <bool holes, class GoesThrough>
     return ray.from == kNone && surfaces.twoSided(hit.material) && caster.startsOn(hit, ray.origin, kNone);
   };
   std::uint32_t triangle = caster.nearest(ray.origin, ray.direction, ray.from, repeats);
+  if (triangle == kNone) return false;
+  caster.prefetch(triangle);
+  found(triangle);
   std::uint32_t layer = 0;
   bool toldApart = false;
   while (triangle != kNone) {

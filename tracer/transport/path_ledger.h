@@ -12,12 +12,20 @@ struct PathLedger {
 
   void addTo(Ledger& ledger) const {
     ledger.absorbed += absorbed;
-    ledger.expectedAbsorbed += absorbed - error;
     ledger.roulette += roulette;
-    ledger.shadingNormal += shadingNormal;
-    const Int128 sum = Int128{error.units[0]} + error.units[1] + error.units[2];
-    ledger.absorptionErrorSquares += sum * sum;
+    if (isZero(error)) {
+      ledger.expectedAbsorbed += absorbed;
+    } else {
+      ledger.expectedAbsorbed += absorbed - error;
+      const Int128 sum = Int128{error.units[0]} + error.units[1] + error.units[2];
+      ledger.absorptionErrorSquares += sum * sum;
+    }
+    if (!isZero(shadingNormal)) ledger.shadingNormal += shadingNormal;
   }
+
+ private:
+  /// Most paths book none of it, and sums of 128 bits cost.
+  static bool isZero(const FixedRgb& v) { return (v.units[0] | v.units[1] | v.units[2]) == 0; }
 };
 
 }  // namespace lucarne

@@ -85,7 +85,7 @@ Rgb PathTracer::visibility(const RayStart& ray, const LightSample& light, std::u
   std::uint64_t repeats = 0;
   Hit hit;
   const bool met = meetSurface<true>(
-      scene_, ray, repeats,
+      scene_, ray, repeats, [](std::uint32_t) {},
       [&](const Hit& h, std::uint32_t) {
         if (!within(h)) return false;
         open *= 1 - scene_.surfaces().coverage(placeOf(h), h.back);
@@ -153,7 +153,7 @@ PathTracer::Found PathTracer::follow(Walk walk, const PhotonSampler& sampler) co
     Rgb& seen = event == 1 ? found.direct : found.indirect;
     Hit hit;
     const bool met = meetSurface<true>(
-        scene_, walk.ray, repeats,
+        scene_, walk.ray, repeats, [](std::uint32_t) {},
         [&](const Hit& h, std::uint32_t layer) {
           return goesThroughByChance(scene_.surfaces(), h, layer, [&](std::uint32_t block) {
             return sampler.words(event + (block << 16), Stream::coverage);

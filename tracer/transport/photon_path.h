@@ -53,7 +53,8 @@ class PhotonPath {
   [[gnu::always_inline]] bool step(std::uint32_t event) {
     ++ledger_.rays;
     Hit hit;
-    if (!meet(hit, event)) {
+    Words words;
+    if (!meet(hit, event, words)) {
       ledger_.escaped += fixed_;
       return false;
     }
@@ -65,7 +66,6 @@ class PhotonPath {
     }
     const Vec3f wi = -direction_, n = hit.back ? -hit.n : hit.n;
     const Vec3f ns = scene_.shadingNormal(hit, n);
-    const Words words = sampler_.words(event, Stream::scatter);
     sink_.hit(PhotonHit{hit, event, words, beta_, wi, n, ns});
     if (!scatter(hit, words, wi, n, ns)) return false;
     from_ = hit.triangle;
@@ -73,9 +73,14 @@ class PhotonPath {
     return true;
   }
 
-  [[gnu::always_inline]] bool meet(Hit& hit, std::uint32_t event) {
+  /// Draws the numbers of the event, too: while the memory comes that the hit needs.
+  [[gnu::always_inline]] bool meet(Hit& hit, std::uint32_t event, Words& words) {
     return meetSurface<features.holes>(
         scene_, {origin_, direction_, from_}, ledger_.repeatedRays,
+        [&](std::uint32_t triangle) {
+          if constexpr (requires { sink_.prefetch(triangle); }) sink_.prefetch(triangle);
+          words = sampler_.words(event, Stream::scatter);
+        },
         [&](const Hit& h, std::uint32_t layer) {
           return goesThroughByChance(surfaces_, h, layer, [&](std::uint32_t block) {
             return sampler_.words(event + (block << 16), Stream::coverage);

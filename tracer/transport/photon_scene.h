@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/huge_allocator.h"
 #include "tracer/optics/emitters.h"
 #include "tracer/optics/surface.h"
 #include "tracer/scene/scene.h"
@@ -47,7 +48,7 @@ class PhotonScene {
   EmitterTable emitters_;
   RayCaster rayCaster_;
   // By triangle, side by side: one or two cache misses instead of four.
-  std::vector<std::array<Vec3f, 3>> cornerNormals_;
+  std::vector<std::array<Vec3f, 3>, HugeAllocator<std::array<Vec3f, 3>>> cornerNormals_;
 };
 
 }  // namespace lucarne

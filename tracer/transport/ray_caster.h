@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/huge_allocator.h"
 #include "base/vec.h"
 #include "tracer/scene/scene.h"
 
@@ -60,6 +61,8 @@ class RayCaster {
     return std::abs(dot(Vec3d(hit.n), hit.position - Vec3d(origin))) <= 2 * static_cast<double>(std::max(left, hit.clearance));
   }
 
+  /// Asks for what intersect() will read.
+  void prefetch(std::uint32_t triangle) const { __builtin_prefetch(&triangles_[triangle]); }
   /// Where a ray that is known to meet the triangle does so.
   Hit intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const;
 
@@ -89,7 +92,7 @@ class RayCaster {
 
   RTCDeviceTy* device_ = nullptr;
   RTCSceneTy* embreeScene_ = nullptr;
-  std::vector<TriangleData> triangles_;
+  std::vector<TriangleData, HugeAllocator<TriangleData>> triangles_;
   std::string description_, isa_;
 };
 
