@@ -76,11 +76,16 @@ Rgb PathTracer::transmittance(std::uint32_t medium, double localDistance) const 
 }
 
 Rgb PathTracer::visibility(const RayStart& ray, const LightSample& light, std::uint32_t medium) const {
-  const float clearance = light.triangle == kNone ? 0x1p-21f : scene_.rayCaster().clearance(light.triangle);
   const bool finite = std::isfinite(light.distance);
   const double distance = finite ? length(light.target - Vec3d(ray.origin)) : light.distance;
-  const double reach = distance * (1 - 0x1p-20) - 2 * static_cast<double>(clearance);
-  const auto within = [&](const Hit& hit) { return length(hit.position - Vec3d(ray.origin)) < reach; };
+  // What is between: in front of the lamp's plane. The way along the ray would not tell: it starts a little off its
+  // surface, beside the ray to the target, and at grazing angles meets the lamp's plane much sooner.
+  const double touching =
+      light.triangle == kNone ? 0 : 2 * static_cast<double>(scene_.rayCaster().clearance(light.triangle));
+  const auto within = [&](const Hit& hit) {
+    if (light.triangle != kNone) return dot(hit.position - light.target, Vec3d(light.normal)) > touching;
+    return length(hit.position - Vec3d(ray.origin)) < distance * (1 - 0x1p-20) - 0x1p-20;
+  };
   float open = 1;
   std::uint64_t repeats = 0;
   Hit hit;
