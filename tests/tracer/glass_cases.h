@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/tracer/mean.h"
 #include "tracer/optics/dielectric.h"
 #include "tracer/optics/glass.h"
 #include "tracer/optics/sampler.h"
@@ -67,20 +68,5 @@ inline Vec3f glassRandoms(std::uint64_t seed, std::uint64_t i) {
   const auto u = PhotonSampler(seed, i).floats(1, Stream::scatter);
   return {u[0], u[1], u[2]};
 }
-
-/// Mean and its standard error.
-struct Mean {
-  double sum = 0, squares = 0;
-  std::uint64_t n = 0;
-  void add(double x) {
-    sum += x;
-    squares += x * x;
-    ++n;
-  }
-  double mean() const { return sum / static_cast<double>(n); }
-  double error() const {
-    return std::sqrt(std::max(0.0, squares / static_cast<double>(n) - mean() * mean()) / static_cast<double>(n));
-  }
-};
 
 }  // namespace lucarne::test
