@@ -25,9 +25,9 @@ namespace lucarne {
 namespace {
 
 /// Tallies and maps exist together while resolving, in one process. `processes` of them share the machine's memory.
-void checkMemory(const BakePlan& plan, int processes) {
-  const std::uint64_t needed =
-      plan.tallies.bytes() * static_cast<std::uint64_t>(processes) + memoryOfMaps(plan.tallies.bytes());
+void checkMemory(const BakePlan& plan, const BakeOptions& options, int processes) {
+  const std::uint64_t needed = tallyBytes(plan, options) * static_cast<std::uint64_t>(processes) +
+                               memoryOfMaps(plan.tallies.bytes());
   const std::uint64_t available = availableMemoryBytes();
   if (needed <= available) return;
   throw Error(ExitCode::outOfResource, "light maps need " + formatBytes(needed) + " and " + formatBytes(available) +
@@ -57,22 +57,35 @@ PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const
   header.identity = {hashBytes(packed.glb), traceSettings(options), resolveSettings(options), layoutHash(plan),
                      scene.emitters().totalFlux()};
   header.makers = {{buildName(), scene.rayCaster().description(), cpuName(), probeRays(scene)}};
-  header.planned = {options.photons, options.part ? options.part->n : 0};
+  header.planned = {options.photons, options.part ? options.part->n : 0, 0};
+  if (gathersDirect(options)) {
+    header.planned.samples = options.directSamples;
+    header.direct.emplace();
+  }
   return header;
 }
 
-/// Traces what the state lacks. A scene without light is at once as good as traced.
+/// Gathers and traces what the state lacks. A scene without light is at once as good as traced, and so are photons that
+/// would store nothing.
 void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene,
            const BakePlan& plan, BakeState& state, CheckpointFolder& folder) {
   const IndexRange range = photonsOf(options);
   const bool root = mpi == nullptr || mpi->rank() == 0;
   if (scene.emitters().empty()) {
     state.header.photons = IndexSet(range);
+    if (state.header.direct) state.header.direct->samples = IndexSet(samplesOf(options));
     if (root && options.checkpointSeconds > 0) folder.save(state.header, packed.glb, state.tallies);
     return;
   }
   if (root) state.variantSpeedup = traceVariantSpeedup(scene);
   const TexelMap map(packed.scene, plan.charts, plan.layout, plan.tallies);
+  if (!tracesPhotons(options)) state.header.photons = IndexSet(range);
+  std::optional<DirectGather> gather;
+  if (gathersDirect(options)) {
+    gather.emplace(GatherScene{scene, plan.charts, plan.layout, plan.tallies, plan.directions},
+                   PhotonSeed{options.seed, options.sampler});
+    if (root) logInfo("gathering direct light: samples " + toText(IndexSet(samplesOf(options))) + " of every texel");
+  }
   ProgressLine progress("baking", range.size(), options.quiet || !root);
   progress.startFrom(state.header.photons.count(), state.header.ledger.rays);
   const auto show = [&progress](const RunProgress& p) { progress.update(p.photons, p.rays); };
@@ -82,7 +95,8 @@ void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, c
                     packed.glb,
                     options.checkpointSeconds,
                     writesPart(options) || options.keepPart,
-                    show};
+                    show,
+                    gather ? std::optional(DirectJob{*gather, samplesOf(options)}) : std::nullopt};
   if (mpi != nullptr) {
     mpi->run(job, state, &folder);
   } else {
@@ -120,9 +134,9 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
     scene.emplace(packed.scene, RayCasterOptions{options.isa, true}, environment.get());
     prepareEmission(*scene, options);
     plan.emplace(makePlan(packed.scene, options));
-    checkMemory(*plan, mpi == nullptr ? 1 : mpi->localSize());
+    checkMemory(*plan, options, mpi == nullptr ? 1 : mpi->localSize());
     if (root) warnAbout(*scene, *plan, options);
-    state.emplace(BakeState{headerOf(options, packed, *scene, *plan), Tallies(plan->tallies)});
+    state.emplace(BakeState{headerOf(options, packed, *scene, *plan), Tallies(plan->tallies, tallySets(options))});
   });
   if (mpi != nullptr) joinMakers(*mpi, state->header);
   CheckpointFolder folder(checkpointPath(options));

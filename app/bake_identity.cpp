@@ -15,6 +15,7 @@ using nlohmann::json;
 
 constexpr std::array<const char*, 3> kShapes = {"pyramid", "box", "epanechnikov"};
 constexpr std::array<const char*, 2> kSamplers = {"random", "sobol"};
+constexpr std::array<const char*, 2> kDirectModes = {"photons", "gathered"};
 constexpr std::array<const char*, 3> kLightParts = {"all", "direct", "indirect"};
 
 /// The place of a view's text among names.
@@ -51,6 +52,8 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
   o.seed = s.at("seed").count();
   o.sampler = choiceAt<SamplerKind>(s.at("sampler"), kSamplers);
   o.light = choiceAt<LightPart>(s.at("light"), kLightParts);
+  if (s.has("direct")) o.direct = choiceAt<DirectMode>(s.at("direct"), kDirectModes);
+  if (header.planned.samples > 0) o.directSamples = header.planned.samples;
   o.environmentHash = s.at("environment").text();
   if (!o.environmentHash.empty()) o.environment = header.environmentName;
   o.environmentScale = s.at("environment_scale").number();
@@ -69,7 +72,7 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
 }  // namespace
 
 json traceSettings(const BakeOptions& o) {
-  return {{"directions", o.directions},
+  json settings = {{"directions", o.directions},
           {"texels_per_metre", o.texelsPerMetre},
           {"texel_budget", o.texelBudget},
           {"keep_all_directions", o.keepAllDirections},
@@ -84,6 +87,8 @@ json traceSettings(const BakeOptions& o) {
           {"light", kLightParts[static_cast<std::size_t>(o.light)]},
           {"fixed_point_bits", kFixedPointBits},
           {"depth_limit", TraceLimits{}.depth}};
+  if (gathersDirect(o)) settings["direct"] = kDirectModes[static_cast<std::size_t>(o.direct)];
+  return settings;
 }
 
 json resolveSettings(const BakeOptions& o) {
@@ -125,6 +130,9 @@ std::string bakeCommand(const PartHeader& header, const std::string& output, con
   }
   add(!o.guidedEmission, "--no-guide");
   add(o.light != standard.light, std::string("--light ") + kLightParts[static_cast<std::size_t>(o.light)]);
+  add(gathersDirect(o), "--direct gathered");
+  add(gathersDirect(o) && o.directSamples != standard.directSamples,
+      "--direct-samples " + formatExactCount(o.directSamples));
   add(o.kernel.shape != standard.kernel.shape,
       std::string("--kernel ") + kShapes[static_cast<std::size_t>(o.kernel.shape)]);
   add(o.kernel.width != standard.kernel.width, "--kernel-width " + shortest(o.kernel.width));

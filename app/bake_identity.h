@@ -9,7 +9,7 @@
 
 namespace lucarne {
 
-/// All that photons and tallies depend on besides the scene.
+/// All that photons and tallies depend on besides the scene. Of gathered direct light only where it is gathered.
 nlohmann::json traceSettings(const BakeOptions& options);
 /// How maps are made of tallies.
 nlohmann::json resolveSettings(const BakeOptions& options);

@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/units.h"
+#include "dlm/direct_gather.h"
 
 namespace lucarne {
 
@@ -31,6 +32,8 @@ void checkSettings(const BakeOptions& o) {
   if (o.directions < 1 || o.directions > 4096) throw UsageError("--directions must be 1 to 4096");
   if (!(o.texelsPerMetre > 0) || !std::isfinite(o.texelsPerMetre)) throw UsageError("--density must be a positive number of texels per metre");
   if (o.texelBudget == 0) throw UsageError("--texels must be at least 1");
+  if (o.directSamples == 0 || o.directSamples > kMostDirectSamples)
+    throw UsageError("--direct-samples must be 1 to " + formatExactCount(kMostDirectSamples));
   if (!(o.environmentScale >= 0 && o.environmentScale <= 1e12)) throw UsageError("--environment-scale must be 0 to 1e12");
   if (!std::isfinite(o.environmentTurn)) throw UsageError("--environment-turn must be a number of degrees");
   if (!(o.kernel.width >= 0.5 && o.kernel.width <= 16)) throw UsageError("--kernel-width must be 0.5 to 16 texels");
@@ -64,6 +67,22 @@ std::filesystem::path checkpointPath(const BakeOptions& o) {
 IndexRange photonsOf(const BakeOptions& o) {
   if (o.part) return shareOf(o.photons, o.part->k, o.part->n);
   return o.photonRange.value_or(IndexRange{0, o.photons});
+}
+
+bool gathersDirect(const BakeOptions& o) { return o.direct == DirectMode::gathered && o.light != LightPart::indirect; }
+
+bool tracesPhotons(const BakeOptions& o) { return !gathersDirect(o) || o.light != LightPart::direct; }
+
+IndexRange samplesOf(const BakeOptions& o) {
+  if (!gathersDirect(o)) return {};
+  const IndexRange photons = photonsOf(o);
+  __extension__ typedef unsigned __int128 Wide;  // holds any product of two numbers of 64 bits
+  const auto cut = [&](std::uint64_t i) { return static_cast<std::uint64_t>(Wide{o.directSamples} * i / o.photons); };
+  return {cut(photons.begin), cut(photons.end)};
+}
+
+Tallies::Sets tallySets(const BakeOptions& o) {
+  return gathersDirect(o) ? Tallies::Sets::photonsAndDirect : Tallies::Sets::photons;
 }
 
 }  // namespace lucarne

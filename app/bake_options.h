@@ -21,6 +21,9 @@ struct PartNumber {
   std::uint64_t k = 1, n = 1;
 };
 
+/// Who brings light that comes straight from lamps and sky: photons, or samples at every texel (direct_gather.h).
+enum class DirectMode : std::uint8_t { photons, gathered };
+
 struct BakeOptions {
   std::optional<std::filesystem::path> scene;  // none: the built-in room
   std::filesystem::path output;                // NAME.dlm, or NAME.part
@@ -35,6 +38,8 @@ struct BakeOptions {
   std::uint64_t seed = 0;
   SamplerKind sampler = SamplerKind::sobol;
   LightPart light = LightPart::all;
+  DirectMode direct = DirectMode::photons;
+  std::uint64_t directSamples = 64;  // of the whole bake, a texel side
   std::optional<std::filesystem::path> environment;  // .exr or .hdr, equirectangular, cd/m²
   double environmentScale = 1;  // times its values
   double environmentTurn = 0;   // degrees about the vertical, counter-clockwise from above
@@ -67,5 +72,14 @@ std::filesystem::path partPath(const BakeOptions& options);
 std::filesystem::path checkpointPath(const BakeOptions& options);
 /// The photons of this piece of the bake.
 IndexRange photonsOf(const BakeOptions& options);
+/// True when direct light is gathered: asked for, and to be stored at all.
+bool gathersDirect(const BakeOptions& options);
+/// False when all light that is stored is gathered.
+bool tracesPhotons(const BakeOptions& options);
+/// The samples of this piece of the bake: as many of the whole as photons of theirs, cut where the photons are, so that
+/// pieces that hold every photon once hold every sample once. Empty when nothing is gathered.
+IndexRange samplesOf(const BakeOptions& options);
+/// The tallies of the options.
+Tallies::Sets tallySets(const BakeOptions& options);
 
 }  // namespace lucarne

@@ -62,7 +62,7 @@ nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, con
   std::optional<Baked> baked;
   const bool maps = !writesPart(options);
   if (maps || options.report) {
-    baked = resolveBake(packed.scene, plan, options, header.identity.emittedFlux, header.ledger, state.tallies);
+    baked = resolveBake(packed.scene, plan, options, header, state.tallies);
   }
   nlohmann::json report = makeReport({options, packed.scene, plan, header, baked ? &*baked : nullptr});
   if (maps) {

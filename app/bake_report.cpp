@@ -29,6 +29,7 @@ nlohmann::json settingsToJson(const BakeOptions& o, const BakePlan& plan) {
   nlohmann::json settings = traceSettings(o);
   settings.update(resolveSettings(o));
   settings["photons"] = o.photons;
+  if (gathersDirect(o)) settings["direct_samples"] = o.directSamples;
   settings["texels_per_metre_used"] = plan.layout.texelsPerMetre;
   settings["format"] = o.format.directional == ChannelType::half ? "half" : "float";
   return settings;
@@ -57,6 +58,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   const Ledger& ledger = in.header.ledger;
   const double seconds = static_cast<double>(in.header.microseconds) * 1e-6;
   nlohmann::json report = ledgerToJson(ledger, in.header.identity.emittedFlux);
+  report["direct"] = directToJson(in.header);
   report["program"] = std::string("lucarne ") + LUCARNE_VERSION;
   report["scene"] = in.header.sceneName;
   report["scene_hash"] = in.header.identity.scene.hex();
@@ -72,7 +74,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["charts"] = in.plan.charts.charts.size();
   report["directions"] = in.options.directions;
   report["texels"] = in.plan.tallies.texels;
-  report["tally_bytes"] = in.plan.tallies.bytes();
+  report["tally_bytes"] = tallyBytes(in.plan, in.options);
   report["content_hash"] = in.header.content.hex();
   report["left_out"] = leftOut(in.scene, in.plan, in.options.directions);
   report["ray_caster"] = rayCasters(in.header.makers);
@@ -87,6 +89,7 @@ nlohmann::json makeReport(const ReportInput& in) {
 
 nlohmann::json provenanceOf(nlohmann::json report) {
   for (const char* key : kRunKeys) report.erase(key);
+  report["direct"].erase("seconds");
   return report;
 }
 

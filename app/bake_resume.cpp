@@ -40,9 +40,15 @@ void keepTimes(const BakeOptions& options, nlohmann::json& report) {
     if (!earlier.is_object() || earlier.value("content_hash", "") != report["content_hash"]) return;
     for (const char* key : kRunKeys)
       if (earlier.contains(key)) report[key] = earlier[key];
+    if (earlier.contains("direct")) report["direct"] = earlier["direct"];
   } catch (const std::exception&) {
     return;  // no earlier report: the times are not known any more
   }
+}
+
+nlohmann::json sampleRanges(const nlohmann::json& manifest) {
+  const nlohmann::json direct = manifest.value("direct", nlohmann::json());
+  return direct.is_object() ? direct.value("sample_ranges", nlohmann::json()) : nlohmann::json();
 }
 
 bool isOf(const nlohmann::json& manifest, const BakeOptions& options, const PartHeader& header) {
@@ -51,12 +57,14 @@ bool isOf(const nlohmann::json& manifest, const BakeOptions& options, const Part
   nlohmann::json wanted = resolveSettings(options);
   wanted["format"] = options.format.directional == ChannelType::half ? "half" : "float";
   wanted["photons"] = options.photons;
+  if (gathersDirect(options)) wanted["direct_samples"] = options.directSamples;
   for (const auto& [key, value] : wanted.items())
     if (settings.value(key, nlohmann::json()) != value) return false;
   const IndexRange range = photonsOf(options);
   return manifest.value("scene_hash", "") == header.identity.scene.hex() &&
          manifest.value("settings_hash", "") == header.identity.settingsHash().hex() &&
-         manifest.value("photon_ranges", nlohmann::json()) == nlohmann::json::array({{range.begin, range.end}});
+         manifest.value("photon_ranges", nlohmann::json()) == nlohmann::json::array({{range.begin, range.end}}) &&
+         (!header.direct || sampleRanges(manifest) == toJson(IndexSet(samplesOf(options))));
 }
 
 /// The state that a finished part is; nothing where there is none.
@@ -74,6 +82,7 @@ void adopt(PartHeader& header, const PartHeader& found) {
   header.photons = found.photons;
   header.ledger = found.ledger;
   header.microseconds = found.microseconds;
+  header.direct = found.direct;
 }
 
 }  // namespace
@@ -117,6 +126,7 @@ void takeUp(const BakeOptions& options, CheckpointFolder& folder, BakeState& sta
   }
   adopt(state.header, *found);
   remaining(state, photonsOf(options), file);
+  if (state.header.direct) remainingSamples(state, samplesOf(options), file);
   logInfo("going on from " + formatCount(found->photons.count()) + " photons in " + file);
 }
 

@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/system.h"
 #include "base/units.h"
+#include "distributed/direct_run.h"
 #include "dlm/resolve.h"
 #include "tracer/transport/guide_pilot.h"
 
@@ -24,13 +25,16 @@ BakePlan makePlan(const Scene& scene, const BakeOptions& options, std::uint64_t 
   return {std::move(charts), std::move(layout), std::move(directions), std::move(tallies)};
 }
 
-Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, double emittedFlux, const Ledger& ledger,
+Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, const PartHeader& header,
                   const Tallies& tallies) {
   Baked baked;
-  baked.ledger = ledger;
-  baked.emittedFlux = emittedFlux;
+  baked.ledger = header.ledger;
+  if (header.direct) baked.direct = *header.direct;
+  baked.emittedFlux = header.identity.emittedFlux;
   baked.contentHash = tallies.contentHash();
-  baked.maps = resolve({scene, plan.charts, plan.layout, plan.tallies, tallies, options.directions, emittedFlux, ledger.photons}, options.kernel);
+  baked.maps = resolve({scene, plan.charts, plan.layout, plan.tallies, tallies, options.directions, baked.emittedFlux,
+                        header.ledger.photons, baked.direct.samples.count()},
+                       options.kernel);
   baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);
   return baked;
 }
@@ -58,21 +62,31 @@ PhotonRunOptions runOptions(const BakeOptions& options) {
   PhotonRunOptions run;
   run.seed = {options.seed, options.sampler};
   run.threads = threadCount(options);
-  run.part = options.light;
+  run.part = gathersDirect(options) ? LightPart::indirect : options.light;
   return run;
 }
 
 Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options,
                 const std::function<bool(const RunProgress&)>& progress) {
-  Tallies tallies(plan.tallies);
-  Ledger ledger;
+  Tallies tallies(plan.tallies, tallySets(options));
+  PartHeader header;
+  header.identity.emittedFlux = scene.emitters().totalFlux();
   const auto start = std::chrono::steady_clock::now();
-  if (!scene.emitters().empty()) {
+  if (gathersDirect(options) && !scene.emitters().empty()) {
+    const DirectGather gather({scene, plan.charts, plan.layout, plan.tallies, plan.directions},
+                              {options.seed, options.sampler});
+    DirectRun run(gather, threadCount(options), tallies);
+    header.direct = DirectPart{IndexSet(samplesOf(options)), {}, 0};
+    run.gather(samplesOf(options), [] { return true; });
+    run.collect(header.direct->counts);
+  }
+  if (tracesPhotons(options) && !scene.emitters().empty()) {
     const TexelMap map(scene.scene(), plan.charts, plan.layout, plan.tallies);
-    runPhotons({scene, map, plan.tallies, plan.directions}, {0, options.photons}, runOptions(options), tallies, ledger, progress);
+    runPhotons({scene, map, plan.tallies, plan.directions}, {0, options.photons}, runOptions(options), tallies,
+               header.ledger, progress);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  Baked baked = resolveBake(scene.scene(), plan, options, scene.emitters().totalFlux(), ledger, tallies);
+  Baked baked = resolveBake(scene.scene(), plan, options, header, tallies);
   baked.seconds = seconds;
   return baked;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "app/bake_plan.h"
+#include "distributed/part_header.h"
 #include "distributed/photon_run.h"
 #include "dlm/atlas.h"
 #include "dlm/light_maps.h"
@@ -12,6 +13,7 @@ namespace lucarne {
 
 struct Baked {
   Ledger ledger;
+  DirectPart direct;       // nothing where direct light is not gathered
   double seconds = 0;      // of tracing
   double emittedFlux = 0;  // lm, mean over channels: the scale of the ledger and the tallies
   LightMaps maps;
@@ -19,13 +21,13 @@ struct Baked {
   Hash128 contentHash;     // of the tallies
 };
 
-/// Traces options.photons photons and resolves them. `progress` as in runPhotons; stopping early gives a whole, noisier result.
+/// Gathers direct light where the options say so, traces options.photons photons and resolves them. `progress` as in runPhotons; stopping early gives a whole, noisier result.
 Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options,
                 const std::function<bool(const RunProgress&)>& progress);
 
-/// Maps of tallies of `photons` photons (0: black): what resolving, the layout and the kernel of `options` decide. Fills in
-/// emittedFlux, maps, uv and contentHash.
-Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, double emittedFlux, const Ledger& ledger,
+/// Maps of the tallies that `header` is of (no photons, no samples: black): what resolving, the layout and the kernel of
+/// `options` decide. Fills in all but the seconds.
+Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, const PartHeader& header,
                   const Tallies& tallies);
 
 /// What tracing needs to know of the options.

@@ -97,10 +97,10 @@ std::uint64_t mapBytes(const TallyLayout& tallies) {
 
 /// Of tallies while tracing: threads have their own while all together are small.
 std::uint64_t tracingBytes(const CheckInput& in) {
-  const std::uint64_t bytes = in.plan.tallies.bytes();
+  const std::uint64_t bytes = in.plan.tallies.bytes(), gathered = tallyBytes(in.plan, in.options) - bytes;
   const PhotonRunOptions run = runOptions(in.options);
   const std::uint64_t all = bytes * static_cast<std::uint64_t>(run.threads);
-  return all <= run.privateTallyBytes ? all : bytes;
+  return (all <= run.privateTallyBytes ? all : bytes) + gathered;
 }
 
 std::uint64_t freeDiskBytes() {
@@ -149,7 +149,8 @@ nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
 }
 
 nlohmann::json checkResources(const CheckInput& in, CheckWarnings& warnings) {
-  const std::uint64_t tallies = in.plan.tallies.bytes(), maps = tallies + memoryOfMaps(tallies);
+  const std::uint64_t tallies = tallyBytes(in.plan, in.options),
+                      maps = tallies + memoryOfMaps(in.plan.tallies.bytes());
   const std::uint64_t peak = in.peakBytes + std::max(tracingBytes(in), maps);
   const std::uint64_t dlm = dlmBytes(in), states = 3 * (tallies + in.glbBytes);
   const std::uint64_t memory = availableMemoryBytes(), disk = freeDiskBytes();

@@ -39,6 +39,7 @@ nlohmann::json describePart(const std::filesystem::path& path) {
   d["kind"] = "part";
   d["photons"] = h.photons.count();
   d["photon_ranges"] = toJson(h.photons);
+  if (h.direct) d["direct"] = directToJson(h);
   d["seed"] = h.identity.settings.value("seed", nlohmann::json());
   d["light_entries"] = h.lightEntries;
   d["texels"] = h.texels;

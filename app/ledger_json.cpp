@@ -31,4 +31,14 @@ nlohmann::json ledgerToJson(const Ledger& ledger, double emittedFlux) {
             {"stray_values", ledger.strayValues}}}};
 }
 
+nlohmann::json directToJson(const PartHeader& h) {
+  if (!h.direct) return {{"mode", "photons"}};
+  return {{"mode", "gathered"},
+          {"samples", h.direct->samples.count()},
+          {"sample_ranges", toJson(h.direct->samples)},
+          {"seconds", static_cast<double>(h.direct->microseconds) * 1e-6},
+          {"clamped", h.direct->counts.clamped},
+          {"stray_values", h.direct->counts.strayValues}};
+}
+
 }  // namespace lucarne

@@ -146,7 +146,7 @@ struct MergedScene {
 nlohmann::json writeMaps(const MergeOptions& options, BakeOptions baked, const MergedScene& merged,
                          const PartHeader& whole, const Tallies& tallies) {
   baked.format = options.format;
-  const Baked maps = resolveBake(merged.scene, merged.plan, baked, whole.identity.emittedFlux, whole.ledger, tallies);
+  const Baked maps = resolveBake(merged.scene, merged.plan, baked, whole, tallies);
   nlohmann::json report = makeReport({baked, merged.scene, merged.plan, whole, &maps});
   writeDlm(*options.output, merged.scene, maps.uv, maps.maps, provenanceOf(report), options.format);
   return report;
@@ -180,7 +180,7 @@ nlohmann::json merge(const MergeOptions& options) {
     chooseKernel(options, baked, whole);
     checkMemory(whole, !toPart(options));
     if (toPart(options)) checkPartOutput(*options.output, whole.photons);
-    Tallies tallies(whole.lightEntries, whole.texels);
+    Tallies tallies = whole.makeTallies();
     const std::vector<std::uint8_t> glb = sumParts(parts, tallies, std::ref(rate));
     whole.content = tallies.contentHash();
     if (toPart(options)) {
@@ -192,6 +192,7 @@ nlohmann::json merge(const MergeOptions& options) {
   }
   report["parts"] = files.size();
   report["missing_photons"] = toJson(missingPhotons(whole));
+  if (whole.direct) report["missing_samples"] = toJson(missingSamples(whole));
   report["merge_seconds"] = rate.elapsed();
   report["peak_memory_bytes"] = peakMemoryBytes();
   if (options.report) writeFileAtomically(*options.report, dumpJson(report));

@@ -50,13 +50,21 @@ IndexSet missingPhotons(const PartHeader& whole) {
   return whole.photons.missing({0, std::max(whole.planned.photons, whole.photons.end())});
 }
 
+IndexSet missingSamples(const PartHeader& whole) {
+  if (!whole.direct) return {};
+  const IndexSet& samples = whole.direct->samples;
+  return samples.missing({0, std::max(whole.planned.samples, samples.end())});
+}
+
 std::string describeGaps(const PartHeader& whole) {
   const IndexSet missing = missingPhotons(whole);
-  if (missing.empty()) return {};
+  const IndexSet samples = missingSamples(whole);
+  const std::string direct = samples.empty() ? "" : "samples of direct light " + toText(samples);
+  if (missing.empty()) return direct.empty() ? "" : direct + " missing";
+  const std::string both = "photons " + toText(missing) + (direct.empty() ? "" : " and " + direct);
   const std::vector<std::uint64_t> parts = missingParts(whole, missing);
-  if (parts.empty()) return "photons " + toText(missing) + " missing";
-  return std::to_string(parts.size()) + " of " + std::to_string(whole.planned.parts) + " parts missing, photons " +
-         toText(missing);
+  if (parts.empty()) return both + " missing";
+  return std::to_string(parts.size()) + " of " + std::to_string(whole.planned.parts) + " parts missing, " + both;
 }
 
 std::string commandsForGaps(const PartHeader& whole, const std::filesystem::path& folder) {

@@ -10,6 +10,8 @@ namespace lucarne {
 
 /// The photons of the whole bake, as far as it was said, that the parts do not hold.
 IndexSet missingPhotons(const PartHeader& whole);
+/// Samples of direct light, likewise; none where it is not gathered.
+IndexSet missingSamples(const PartHeader& whole);
 
 /// "3 of 16 parts missing, photons 5M..7.5M". Empty where nothing is missing.
 std::string describeGaps(const PartHeader& whole);

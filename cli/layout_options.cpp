@@ -15,11 +15,16 @@ void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts) {
       ->capture_default_str();
   cmd.add_option("--texels", texts.texels, "texel budget; a scene that needs more is baked at a lower density")
       ->capture_default_str();
+  addChoice<DirectMode>(cmd, "--direct", o.direct,
+                        {{"photons", DirectMode::photons}, {"gathered", DirectMode::gathered}}, "photons",
+                        "light straight from lamps and sky: brought by photons, or gathered at every texel");
+  cmd.add_option("--direct-samples", texts.directSamples, "of --direct gathered: samples a texel")->capture_default_str();
   cmd.add_flag("--keep-all-directions", o.keepAllDirections, "direction maps also for surfaces without a glossy lobe");
 }
 
 void finishLayout(BakeOptions& o, const LayoutTexts& texts) {
   o.photons = parseCount("--photons", texts.photons);
+  o.directSamples = parseCount("--direct-samples", texts.directSamples);
   o.texelBudget = parseCount("--texels", texts.texels);
 }
 

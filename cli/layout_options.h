@@ -10,10 +10,10 @@ namespace lucarne {
 
 /// Numbers arrive as text, so that 20M and 1e9 work and nonsense is refused in our words.
 struct LayoutTexts {
-  std::string photons = "20M", texels = "1M";
+  std::string photons = "20M", texels = "1M", directSamples = "64";
 };
 
-/// --photons, --directions, --density, --texels, --keep-all-directions. `o` and `texts` must outlive the parsing.
+/// --photons, --directions, --density, --texels, --direct, --direct-samples, --keep-all-directions. `o` and `texts` must outlive the parsing.
 void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts);
 /// After parsing: UsageError for texts that are no numbers.
 void finishLayout(BakeOptions& o, const LayoutTexts& texts);

@@ -1,12 +1,20 @@
-// A bake as work: which photons are still to be traced, and a state that is saved on the way.
+// A bake as work: which samples of direct light are still to be gathered and which photons to be traced, and a state
+// that is saved on the way.
 #pragma once
 
 #include <functional>
 
 #include "distributed/checkpoint.h"
+#include "distributed/direct_run.h"
 #include "distributed/photon_run.h"
 
 namespace lucarne {
+
+/// Direct light to be gathered, before photons are traced.
+struct DirectJob {
+  const DirectGather& gather;
+  IndexRange range;  // of samples in all, those of earlier runs included
+};
 
 struct BakeJob {
   PhotonTask task;
@@ -16,6 +24,7 @@ struct BakeJob {
   double checkpointSeconds = 300;       // 0: no states
   bool lastStateIsWanted = false;  // for itself; else it only guards what follows, and failing to save it is no error
   std::function<void(const RunProgress&)> progress;  // photons and rays so far, earlier runs included
+  std::optional<DirectJob> direct;
 };
 
 /// What there is of a bake: its header says of which photons.
@@ -31,8 +40,10 @@ struct BakeState {
 /// The photons of `range` that `state` lacks. Throws Error(mergeRefused) naming `file` unless what it has is the
 /// beginning of the range.
 IndexRange remaining(const BakeState& state, IndexRange range, const std::string& file);
+/// The same of samples; the state must be one of gathered direct light.
+IndexRange remainingSamples(const BakeState& state, IndexRange range, const std::string& file);
 
-/// Traces what is left of the job's range, in order, into `state`. Saves a state every checkpointSeconds and at the
+/// Gathers and traces what is left of the job's ranges, in order, into `state`. Saves a state every checkpointSeconds and at the
 /// end; one that fails is warned of and tried again at the next. `folder` may be null: nothing is saved.
 void runJob(const BakeJob& job, BakeState& state, CheckpointFolder* folder);
 
@@ -56,10 +67,10 @@ class CheckpointWriter {
   CheckpointClock clock_;
 };
 
-/// Adds to header.microseconds the time since its making, at every call the time since the last one.
+/// Adds the time since its making, at every call the time since the last one.
 class TracingTime {
  public:
-  void addTo(PartHeader& header);
+  void addTo(std::uint64_t& microseconds);
 
  private:
   CheckpointClock::Clock::time_point last_ = CheckpointClock::Clock::now();

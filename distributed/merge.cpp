@@ -20,15 +20,23 @@ auto refusing(F&& f) {
   }
 }
 
-/// Refuses photons that the last of some files shares with an earlier one, which is looked for.
-[[noreturn]] void refuseTwice(const PartHeader& part, const std::vector<fs::path>& files, std::size_t last) {
+/// What a header has of photons, or of samples of direct light.
+const IndexSet& indicesOf(const PartHeader& h, bool samples) {
+  static const IndexSet kNothing;
+  return !samples ? h.photons : h.direct ? h.direct->samples : kNothing;
+}
+
+/// Refuses photons or samples that the last of some files shares with an earlier one, which is looked for.
+[[noreturn]] void refuseTwice(const PartHeader& part, const std::vector<fs::path>& files, std::size_t last,
+                              bool samples) {
+  const std::string what = samples ? "samples of direct light" : "photons";
   for (std::size_t i = 0; i < last; ++i) {
-    const IndexSet common = PartReader(files[i]).header().photons.common(part.photons);
+    const IndexSet common = indicesOf(PartReader(files[i]).header(), samples).common(indicesOf(part, samples));
     if (common.empty()) continue;
-    refuse(files[i].string() + " and " + files[last].string() + " both hold photons " + toText(common) +
+    refuse(files[i].string() + " and " + files[last].string() + " both hold " + what + " " + toText(common) +
            "; merge each part once");
   }
-  refuse(files[last].string() + " holds photons that another part holds, too; merge each part once");
+  refuse(files[last].string() + " holds " + what + " that another part holds, too; merge each part once");
 }
 
 void checkAgainst(const PartHeader& whole, const PartHeader& part, const std::vector<fs::path>& files, std::size_t i,
@@ -44,7 +52,10 @@ void checkAgainst(const PartHeader& whole, const PartHeader& part, const std::ve
   if (whole.sceneBytes != part.sceneBytes || whole.lightEntries != part.lightEntries || whole.texels != part.texels) {
     refuse(both + " differ in size of their tallies although they are of one layout; one of them was altered");
   }
-  if (!whole.photons.common(part.photons).empty()) refuseTwice(part, files, i);
+  if (whole.direct.has_value() != part.direct.has_value())
+    refuse(both + " differ in their sets of tallies although their settings agree; one of them was altered");
+  for (const bool samples : {false, true})
+    if (!indicesOf(whole, samples).common(indicesOf(part, samples)).empty()) refuseTwice(part, files, i, samples);
 }
 
 /// The part read again must be the one whose header was joined.

@@ -80,6 +80,55 @@ const json& flatObject(const JsonView& view) {
   return value;
 }
 
+constexpr auto kMostSamples = static_cast<std::int64_t>(kMostDirectSamples);
+
+/// What sets of tallies have in common.
+json tallySet(const PartHeader& h, const std::string& name, const IndexSet& ranges) {
+  return {{"name", name},
+          {"ranges", toJson(ranges)},
+          {"normaliser", ranges.count()},
+          {"fixed_point_bits", kFixedPointBits},
+          {"layers", {name + ".light", name + ".statistics"}},
+          {"light_channels", {"r", "g", "b"}},
+          {"statistics_channels", {"count", "m2"}},
+          {"light_entries", h.lightEntries},
+          {"texels", h.texels}};
+}
+
+json photonSet(const PartHeader& h) {
+  json set = tallySet(h, "photons", h.photons);
+  set["ledger"] = ledgerState(h.ledger);
+  return set;
+}
+
+json directSet(const PartHeader& h) {
+  json set = tallySet(h, "direct", h.direct->samples);
+  const DirectCounts& counts = h.direct->counts;
+  set["counts"] = {{"places", counts.places}, {"clamped", counts.clamped}, {"stray_values", counts.strayValues}};
+  set["microseconds"] = h.direct->microseconds;
+  return set;
+}
+
+void readPhotonSet(const JsonView& set, PartHeader& h) {
+  h.photons = rangesFrom(set.at("ranges"));
+  h.lightEntries = set.at("light_entries").count();
+  h.texels = set.at("texels").count();
+  h.ledger = ledgerFromState(set.at("ledger"));
+  // A scene without light is not traced, nor one whose stored light is all gathered.
+  if (h.ledger.photons != 0 && h.ledger.photons != h.photons.count())
+    set.at("ledger").refuse("is of another number of photons");
+}
+
+DirectPart directFrom(const JsonView& set) {
+  DirectPart direct;
+  direct.samples = rangesFrom(set.at("ranges"));
+  if (direct.samples.end() > kMostDirectSamples) set.at("ranges").refuse("has more samples than a texel can hold");
+  const JsonView counts = set.at("counts");
+  direct.counts = {counts.at("places").count(), counts.at("clamped").count(), counts.at("stray_values").count()};
+  direct.microseconds = set.at("microseconds").count();
+  return direct;
+}
+
 }  // namespace
 
 bool operator<(const Maker& a, const Maker& b) {
@@ -92,17 +141,26 @@ bool operator<(const Maker& a, const Maker& b) {
 Hash128 BakeIdentity::settingsHash() const { return hashOf(settings); }
 
 std::uint64_t PartHeader::tallyBytes() const {
-  return 8 * (lightEntries * kLightChannels + texels * kStatisticsChannels);
+  return 8 * (lightEntries * kLightChannels + texels * kStatisticsChannels) * (direct ? 2 : 1);
+}
+
+Tallies PartHeader::makeTallies() const {
+  return Tallies(lightEntries, texels, direct ? Tallies::Sets::photonsAndDirect : Tallies::Sets::photons);
 }
 
 void PartHeader::add(const PartHeader& other) {
   sceneName = std::min(sceneName, other.sceneName);
   environmentName = std::min(environmentName, other.environmentName);
   makers.insert(other.makers.begin(), other.makers.end());
-  if (!(planned == other.planned)) planned = {std::max(planned.photons, other.planned.photons), 0};
+  if (!(planned == other.planned))
+    planned = {std::max(planned.photons, other.planned.photons), 0, std::max(planned.samples, other.planned.samples)};
   photons.add(other.photons);
   ledger += other.ledger;
   microseconds += other.microseconds;
+  if (!direct) return;
+  direct->samples.add(other.direct->samples);
+  direct->counts += other.direct->counts;
+  direct->microseconds += other.direct->microseconds;
 }
 
 std::string difference(const BakeIdentity& a, const BakeIdentity& b, const std::set<std::string>& chosen) {
@@ -128,6 +186,12 @@ json toJson(const IndexSet& set) {
 }
 
 json toJson(const PartHeader& h) {
+  json planned = {{"photons", h.planned.photons}, {"parts", h.planned.parts}};
+  json sets = json::array({photonSet(h)});
+  if (h.direct) {
+    planned["samples"] = h.planned.samples;
+    sets.push_back(directSet(h));
+  }
   return {{"format", kFormat},
           {"version", kVersion},
           {"scene_name", h.sceneName},
@@ -139,19 +203,10 @@ json toJson(const PartHeader& h) {
           {"layout_hash", h.identity.layout.hex()},
           {"emitted_flux_lm", h.identity.emittedFlux},
           {"makers", makersToJson(h.makers)},
-          {"planned", {{"photons", h.planned.photons}, {"parts", h.planned.parts}}},
+          {"planned", planned},
           {"microseconds", h.microseconds},
           {"scene_bytes", h.sceneBytes},
-          {"tally_sets", json::array({{{"name", "photons"},
-                                       {"ranges", toJson(h.photons)},
-                                       {"normaliser", h.photons.count()},
-                                       {"fixed_point_bits", kFixedPointBits},
-                                       {"layers", {"photons.light", "photons.statistics"}},
-                                       {"light_channels", {"r", "g", "b"}},
-                                       {"statistics_channels", {"count", "m2"}},
-                                       {"light_entries", h.lightEntries},
-                                       {"texels", h.texels},
-                                       {"ledger", ledgerState(h.ledger)}}})},
+          {"tally_sets", sets},
           {"content_hash", h.content.hex()}};
 }
 
@@ -173,20 +228,18 @@ PartHeader partHeaderFrom(const JsonView& v) {
   h.makers = makersFrom(v.at("makers"));
   const JsonView planned = v.at("planned");
   h.planned = {planned.at("photons").count(),
-               static_cast<std::uint64_t>(planned.at("parts").integer(0, static_cast<std::int64_t>(kMostParts)))};
+               static_cast<std::uint64_t>(planned.at("parts").integer(0, static_cast<std::int64_t>(kMostParts))), 0};
   h.microseconds = v.at("microseconds").count();
   h.sceneBytes = v.at("scene_bytes").count();
   const JsonView sets = v.at("tally_sets");
-  if (sets.size() != 1 || sets.at(0).at("name").text() != "photons")
+  const bool known = sets.size() == 1 || (sets.size() == 2 && sets.at(1).at("name").text() == "direct");
+  if (!known || sets.at(0).at("name").text() != "photons")
     sets.refuse("has tallies that this program does not know");
-  const JsonView set = sets.at(0);
-  h.photons = rangesFrom(set.at("ranges"));
-  h.lightEntries = set.at("light_entries").count();
-  h.texels = set.at("texels").count();
-  h.ledger = ledgerFromState(set.at("ledger"));
-  // A scene without light is not traced.
-  if (h.ledger.photons != 0 && h.ledger.photons != h.photons.count())
-    set.at("ledger").refuse("is of another number of photons");
+  readPhotonSet(sets.at(0), h);
+  if (sets.size() == 2) {
+    h.direct = directFrom(sets.at(1));
+    h.planned.samples = static_cast<std::uint64_t>(planned.at("samples").integer(1, kMostSamples));
+  }
   h.content = hashAt(v.at("content_hash"));
   // Unknown members and a normaliser, channels or layers of another kind would mean another format.
   if (toJson(h) != v.json()) v.refuse("has members that this program does not know");

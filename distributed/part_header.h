@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "base/hash.h"
 #include "base/json.h"
 #include "distributed/index_set.h"
+#include "dlm/direct_gather.h"
 #include "tracer/transport/ledger.h"
 
 namespace lucarne {
@@ -45,11 +47,18 @@ struct Maker {
 /// Into how many parts a bake may be cut.
 inline constexpr std::uint64_t kMostParts = 1'000'000;
 
-/// The whole of which a part is a piece, as far as it was said: photons in all, and into how many parts they were cut
-/// (0: not said, or not all cut alike).
+/// The whole of which a part is a piece, as far as it was said: photons in all, into how many parts they were cut
+/// (0: not said, or not all cut alike), and samples of gathered direct light (0: not gathered).
 struct BakePlanned {
-  std::uint64_t photons = 0, parts = 0;
+  std::uint64_t photons = 0, parts = 0, samples = 0;
   friend bool operator==(const BakePlanned&, const BakePlanned&) = default;
+};
+
+/// Of the second tally set.
+struct DirectPart {
+  IndexSet samples;  // of every texel
+  DirectCounts counts;
+  std::uint64_t microseconds = 0;  // of gathering
 };
 
 struct PartHeader {
@@ -61,13 +70,16 @@ struct PartHeader {
   IndexSet photons;
   Ledger ledger;
   std::uint64_t microseconds = 0;  // of tracing, all runs and machines together
+  std::optional<DirectPart> direct;  // none: direct light is not gathered
   std::uint64_t sceneBytes = 0, lightEntries = 0, texels = 0;
   Hash128 content;  // of the tallies: content_hash
 
-  /// Takes in the header of another part of the same bake, whose photons this one does not hold. In any order of taking
+  /// Takes in the header of another part of the same bake, whose photons and samples this one does not hold. In any order of taking
   /// in, the result is the same. Leaves `content` to whoever adds the tallies.
   void add(const PartHeader& other);
   std::uint64_t tallyBytes() const;
+  /// Zero tallies of this size.
+  Tallies makeTallies() const;
 };
 
 /// Members of `resolve`, all of them.

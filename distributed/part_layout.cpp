@@ -25,7 +25,7 @@ constexpr std::array<std::size_t, 3> kLightPlaces = {2, 1, 0};  // r, g, b stand
 constexpr std::array<std::size_t, 3> kStatisticsPlaces = {0, 1, 0};
 
 constexpr std::size_t placeOf(PartLayer layer, std::size_t channel) {
-  return layer == PartLayer::light ? kLightPlaces[channel] : kStatisticsPlaces[channel];
+  return isLight(layer) ? kLightPlaces[channel] : kStatisticsPlaces[channel];
 }
 
 /// One channel at a time over a row of constant length, which compilers turn into vector code.
@@ -59,17 +59,20 @@ void join(PartLayer layer, const std::uint32_t* row, std::size_t pixels, std::in
 }  // namespace
 
 ExrRows partRows(const PartHeader& header, const std::string& file) {
-  return ExrRows(
-      kPartWidth,
-      {{"scene", {"bytes"}, rowsFor((header.sceneBytes + 3) / 4, file)},
-       {"photons.light", {"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}, rowsFor(header.lightEntries, file)},
-       {"photons.statistics", {"count.hi", "count.lo", "m2.hi", "m2.lo"}, rowsFor(header.texels, file)}},
-      kAttribute, toJson(header).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  std::vector<ExrRowsLayer> layers = {{"scene", {"bytes"}, rowsFor((header.sceneBytes + 3) / 4, file)}};
+  const auto addSet = [&](const std::string& name) {
+    layers.push_back({name + ".light", {"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}, rowsFor(header.lightEntries, file)});
+    layers.push_back({name + ".statistics", {"count.hi", "count.lo", "m2.hi", "m2.lo"}, rowsFor(header.texels, file)});
+  };
+  addSet("photons");
+  if (header.direct) addSet("direct");
+  return ExrRows(kPartWidth, std::move(layers), kAttribute,
+                 toJson(header).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<std::uint32_t> row) {
   const std::size_t pixels = values.size() / channelsOf(layer);
-  if (layer == PartLayer::light) {
+  if (isLight(layer)) {
     split<3>(layer, values.data(), pixels, row.data());
   } else {
     split<2>(layer, values.data(), pixels, row.data());
@@ -78,7 +81,7 @@ void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<s
 
 void joinRow(PartLayer layer, std::span<const std::uint32_t> row, std::span<std::int64_t> values) {
   const std::size_t pixels = values.size() / channelsOf(layer);
-  if (layer == PartLayer::light) {
+  if (isLight(layer)) {
     join<3>(layer, row.data(), pixels, values.data());
   } else {
     join<2>(layer, row.data(), pixels, values.data());

@@ -10,7 +10,10 @@ namespace lucarne {
 /// of the scene; the last row of a layer is filled up with zeros.
 inline constexpr int kPartWidth = 2048;
 
-enum class PartLayer : std::uint8_t { scene, light, statistics };
+/// In the order of the file; the last two only in parts with gathered direct light.
+enum class PartLayer : std::uint8_t { scene, light, statistics, directLight, directStatistics };
+
+constexpr bool isLight(PartLayer layer) { return layer == PartLayer::light || layer == PartLayer::directLight; }
 
 /// The file for a header; throws PartError naming `file` when a layer would be too tall for the format.
 ExrRows partRows(const PartHeader& header, const std::string& file);
@@ -21,7 +24,7 @@ void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<s
 void joinRow(PartLayer layer, std::span<const std::uint32_t> row, std::span<std::int64_t> values);
 
 /// 64-bit values in a pixel.
-constexpr std::size_t channelsOf(PartLayer layer) { return layer == PartLayer::light ? 3 : 2; }
+constexpr std::size_t channelsOf(PartLayer layer) { return isLight(layer) ? 3 : 2; }
 
 /// Behind the image: what reading stops at, and the hash of all bytes before it.
 inline constexpr std::size_t kSealBytes = 24;

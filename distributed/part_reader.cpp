@@ -59,6 +59,10 @@ class PartStream {
     scene();
     tallies(PartLayer::light, header_.lightEntries);
     tallies(PartLayer::statistics, header_.texels);
+    if (header_.direct) {
+      tallies(PartLayer::directLight, header_.lightEntries);
+      tallies(PartLayer::directStatistics, header_.texels);
+    }
     const std::string seal = partSeal(reader_.hash());
     expect(seal);
     if (content_.finish() != header_.content || sceneHash_.finish() != header_.identity.scene) failAltered(path_);
@@ -176,7 +180,9 @@ class TallyAdder {
  public:
   explicit TallyAdder(Tallies& tallies) : tallies_(tallies) {}
   void add(PartLayer layer, std::uint64_t first, std::span<const std::int64_t> values) {
-    std::int64_t* sum = (layer == PartLayer::light ? tallies_.light() : tallies_.statistics()).data() + first;
+    const bool direct = layer == PartLayer::directLight || layer == PartLayer::directStatistics;
+    const Tallies& set = direct ? *tallies_.direct() : tallies_;
+    std::int64_t* sum = (isLight(layer) ? set.light() : set.statistics()).data() + first;
     std::int64_t negative = 0, overflow = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       sum[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum[i]) + static_cast<std::uint64_t>(values[i]));
@@ -198,7 +204,8 @@ class TallyAdder {
 
 void addPart(const PartReader& part, Tallies& tallies, std::vector<std::uint8_t>* scene) {
   if (tallies.light().size() != part.header().lightEntries * kLightChannels ||
-      tallies.statistics().size() != part.header().texels * kStatisticsChannels) {
+      tallies.statistics().size() != part.header().texels * kStatisticsChannels ||
+      (tallies.direct() != nullptr) != part.header().direct.has_value()) {
     throw PartError(part.path().string() + " was altered: its tallies are of another size than its layout");
   }
   TallyAdder adder(tallies);

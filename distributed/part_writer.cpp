@@ -63,12 +63,17 @@ void writePart(const std::filesystem::path& path, PartHeader header, std::span<c
   header.lightEntries = tallies.light().size() / kLightChannels;
   header.texels = tallies.statistics().size() / kStatisticsChannels;
   header.content = tallies.contentHash();
+  LUCARNE_CHECK_EQ(header.direct.has_value(), tallies.direct() != nullptr);
   const ExrRows rows = partRows(header, path.string());
   SealedFile file(path);
   file.write(rows.head());
   writeScene(rows, scene, file);
   writeTallies(rows, PartLayer::light, tallies.light(), file);
   writeTallies(rows, PartLayer::statistics, tallies.statistics(), file);
+  if (tallies.direct() != nullptr) {
+    writeTallies(rows, PartLayer::directLight, tallies.direct()->light(), file);
+    writeTallies(rows, PartLayer::directStatistics, tallies.direct()->statistics(), file);
+  }
   file.commit();
 }
 

@@ -1,4 +1,4 @@
-// Which photons each rank traces next. A slow rank gets fewer, and all end at about the same time.
+// Which photons or samples each rank takes next. A slow rank gets fewer, and all end at about the same time.
 #pragma once
 
 #include <vector>
@@ -12,20 +12,25 @@ namespace lucarne {
 /// Polychronopoulos and Kuck 1987, halved).
 class RangeDealer {
  public:
-  RangeDealer(IndexRange range, int ranks) : left_(range), rates_(static_cast<std::size_t>(ranks), 0.0) {}
+  /// The first piece of each rank, and the smallest that any gets while there is more left.
+  struct Pieces {
+    std::uint64_t first = 16384, smallest = 4096;
+  };
+  RangeDealer(IndexRange range, int ranks, Pieces pieces) : left_(range), pieces_(pieces), rates_(static_cast<std::size_t>(ranks), 0.0) {}
+  RangeDealer(IndexRange range, int ranks) : RangeDealer(range, ranks, Pieces{}) {}
   /// The next piece; empty when all is dealt.
   IndexRange next(int rank);
   /// What the rank did with its last piece.
-  void finished(int rank, std::uint64_t photons, double seconds);
+  void finished(int rank, std::uint64_t indices, double seconds);
   bool empty() const { return left_.size() == 0; }
   /// What was dealt ends here.
   std::uint64_t begin() const { return left_.begin; }
 
  private:
-  static constexpr std::uint64_t kFirst = 16384, kSmallest = 4096;
   static constexpr double kSeconds = 1;
   IndexRange left_;
-  std::vector<double> rates_;  // photons per second; 0: not known
+  Pieces pieces_;
+  std::vector<double> rates_;  // indices per second; 0: not known
 };
 
 }  // namespace lucarne

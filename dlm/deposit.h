@@ -130,12 +130,6 @@ class DepositSink {
     std::uint32_t word;  // for rounding
   };
 
-  /// v in fixed point, rounded up with the probability of the fraction, so that small values are kept on average: to
-  /// nearest in units of 1/256, then the low 8 bits of `word` are added and 8 bits dropped. The mean is off by at most
-  /// 2^-9 units. v ≤ 2^30.
-  static std::int64_t roundUnits(float v, std::uint32_t word) {
-    return (std::llrint(v * (kFixedPointOne * 256)) + static_cast<std::int64_t>(word & 0xffu)) >> 8;
-  }
   static void add(std::int64_t* p, std::int64_t v) {
     if constexpr (shared)
       std::atomic_ref<std::int64_t>(*p).fetch_add(v, std::memory_order_relaxed);

@@ -5,7 +5,8 @@
 // area(t') is the surface inside texel t'. A constant irradiance E gives tallies E·area(t') on average, hence value E at
 // every texel up to the chart's edge. Texels without surface but within the kernel of some are extrapolated by the same formula;
 // the others copy the nearest that has a value. The physical scale enters here, once, in double: one tally unit is
-// 2^-24 · emitted flux / photons.
+// 2^-24 · emitted flux / photons. Where direct light was gathered (direct_gather.h), its set has tally(t') = area(t') ·
+// mean over its samples, and the two sets are added; so are the variances.
 #pragma once
 
 #include "dlm/kernel.h"
@@ -23,6 +24,7 @@ struct ResolveInput {
   int directionCount;
   double emittedFlux;     // lm: EmitterTable::totalFlux()
   std::uint64_t photons;  // traced; 0 gives black maps
+  std::uint64_t samples = 0;  // of the second set of the tallies; 0: nothing of it counts
 };
 
 /// Everything of LightMaps but the place in the atlas.

@@ -59,39 +59,48 @@ void SideResolver::spread(std::vector<T>& values) const {
     if (source_[t] != t && source_[t] != ~std::uint32_t{0}) values[t] = values[source_[t]];
 }
 
-std::vector<Rgbd> SideResolver::filterRgb(std::span<const std::int64_t> units) const {
-  std::vector<Rgbd> values(inverseArea_.size());
+template <class T, class F>
+std::vector<T> SideResolver::filter(int power, F&& term) const {
+  std::vector<T> values(inverseArea_.size());
   std::size_t t = 0;
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x, ++t) {
       if (inverseArea_[t] <= 0) continue;
-      Rgbd sum{};
-      forNeighbours(x, y, [&](std::size_t n, double k) {
-        const std::int64_t* p = units.data() + 3 * n;
-        sum += Rgbd{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} * k;
-      });
+      T sum{};
+      forNeighbours(x, y, [&](std::size_t n, double k) { sum += term(n, k); });
       values[t] = sum * inverseArea_[t];
+      if (power == 2) values[t] = values[t] * inverseArea_[t];
     }
   }
   spread(values);
   return values;
 }
 
+namespace {
+
+Rgbd unitsAt(std::span<const std::int64_t> units, std::size_t n) {
+  const std::int64_t* p = units.data() + 3 * n;
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+}  // namespace
+
+std::vector<Rgbd> SideResolver::filterRgb(std::span<const std::int64_t> units) const {
+  return filter<Rgbd>(1, [&](std::size_t n, double k) { return unitsAt(units, n) * k; });
+}
+
+std::vector<Rgbd> SideResolver::filterMeans(std::span<const std::int64_t> means, std::span<const double> area) const {
+  return filter<Rgbd>(1, [&](std::size_t n, double k) { return unitsAt(means, n) * (k * area[n]); });
+}
+
 std::vector<double> SideResolver::filterSquares(std::span<const std::int64_t> pairs, int channel) const {
-  std::vector<double> values(inverseArea_.size());
-  std::size_t t = 0;
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x, ++t) {
-      if (inverseArea_[t] <= 0) continue;
-      double sum = 0;
-      forNeighbours(x, y, [&](std::size_t n, double k) {
-        sum += k * k * static_cast<double>(pairs[2 * n + static_cast<std::size_t>(channel)]);
-      });
-      values[t] = sum * inverseArea_[t] * inverseArea_[t];
-    }
-  }
-  spread(values);
-  return values;
+  return filter<double>(2, [&](std::size_t n, double k) {
+    return k * k * static_cast<double>(pairs[2 * n + static_cast<std::size_t>(channel)]);
+  });
+}
+
+std::vector<double> SideResolver::filterSquares(std::span<const double> values) const {
+  return filter<double>(2, [&](std::size_t n, double k) { return k * k * values[n]; });
 }
 
 }  // namespace lucarne

@@ -108,18 +108,27 @@ void Tallies::add(const Tallies& other) {
   LUCARNE_CHECK_EQ(statistics().size(), other.statistics().size());
   for (std::size_t i = 0; i < light().size(); ++i) light()[i] += other.light()[i];
   for (std::size_t i = 0; i < statistics().size(); ++i) statistics()[i] += other.statistics()[i];
+  if (other.direct_ == nullptr) return;
+  LUCARNE_CHECK_EQ(direct_ != nullptr, true);
+  direct_->add(*other.direct_);
 }
 
 void Tallies::clear() {
   std::fill(light().begin(), light().end(), 0);
   std::fill(statistics().begin(), statistics().end(), 0);
+  if (direct_ != nullptr) direct_->clear();
+}
+
+void Tallies::hashInto(Hasher& hasher) const {
+  static_assert(std::endian::native == std::endian::little, "tallies are hashed as little-endian bytes");
+  hasher.add(std::as_bytes(light()));
+  hasher.add(std::as_bytes(statistics()));
+  if (direct_ != nullptr) direct_->hashInto(hasher);
 }
 
 Hash128 Tallies::contentHash() const {
-  static_assert(std::endian::native == std::endian::little, "tallies are hashed as little-endian bytes");
   Hasher hasher;
-  hasher.add(std::as_bytes(light()));
-  hasher.add(std::as_bytes(statistics()));
+  hashInto(hasher);
   return hasher.finish();
 }
 

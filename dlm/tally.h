@@ -4,9 +4,14 @@
 // Statistics: [chart side][y][x][count, m2]    photons that fell into the texel, and Σ (luminance of a photon's whole
 //             share of the texel)², per photon, since one path may come back to a texel; units of 2^-24.
 // Canonical order is memory order, light first; content_hash is XXH3-128 over it, little-endian.
+//
+// A second set of the same shape counts direct light where it is gathered (direct_gather.h) instead of brought by
+// photons: it follows the first in canonical order.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,10 +21,18 @@
 #include "dlm/charts.h"
 #include "dlm/direction_set.h"
 #include "dlm/texel_layout.h"
+#include "tracer/transport/ledger.h"
 
 namespace lucarne {
 
 inline constexpr std::uint64_t kLightChannels = 3, kStatisticsChannels = 2;
+
+/// v in fixed point, rounded up with the probability of the fraction, so that small values are kept on average: to
+/// nearest in units of 1/256, then the low 8 bits of `word` are added and 8 bits dropped. The mean is off by at most
+/// 2^-9 units. v ≤ 2^30.
+inline std::int64_t roundUnits(float v, std::uint32_t word) {
+  return (std::llrint(v * (kFixedPointOne * 256)) + static_cast<std::int64_t>(word & 0xffu)) >> 8;
+}
 
 /// Members of Ω on one side: shared by all sides with the same set.
 struct MemberSet {
@@ -54,17 +67,28 @@ TallyLayout planTallies(const Scene& scene, const ChartSet& charts, const TexelL
 
 class Tallies {
  public:
-  explicit Tallies(const TallyLayout& layout) : Tallies(layout.lightEntries, layout.texels) {}
-  Tallies(std::uint64_t lightEntries, std::uint64_t texels)
-      : light_(lightEntries * kLightChannels), statistics_(texels * kStatisticsChannels) {}
+  enum class Sets : std::uint8_t { photons, photonsAndDirect };
+
+  explicit Tallies(const TallyLayout& layout, Sets sets = Sets::photons)
+      : Tallies(layout.lightEntries, layout.texels, sets) {}
+  Tallies(std::uint64_t lightEntries, std::uint64_t texels, Sets sets = Sets::photons)
+      : light_(lightEntries * kLightChannels), statistics_(texels * kStatisticsChannels) {
+    if (sets == Sets::photonsAndDirect) direct_ = std::make_unique<Tallies>(lightEntries, texels);
+  }
   std::span<std::int64_t> light() const { return light_.span(); }
   std::span<std::int64_t> statistics() const { return statistics_.span(); }
+  /// The set of gathered direct light; null: none.
+  Tallies* direct() const { return direct_.get(); }
+  /// `other` may lack the second set.
   void add(const Tallies& other);
   void clear();
   Hash128 contentHash() const;
 
  private:
+  void hashInto(Hasher& hasher) const;
+
   HugeBuffer<std::int64_t> light_, statistics_;
+  std::unique_ptr<Tallies> direct_;
 };
 
 }  // namespace lucarne

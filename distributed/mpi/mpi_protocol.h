@@ -10,11 +10,11 @@ namespace lucarne {
 
 /// To rank 0: "I am free", and what was done since the last time.
 struct RankReport {
-  std::uint64_t photons = 0, rays = 0;
+  std::uint64_t count = 0, rays = 0;  // photons or samples
   double seconds = 0;
 };
 
-enum class Order : std::uint64_t { trace, collect, end };
+enum class Order : std::uint64_t { gather, trace, collect, end };
 
 /// From rank 0.
 struct RankOrder {

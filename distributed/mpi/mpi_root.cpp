@@ -14,21 +14,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Rank 0's own tracing, in a thread beside the one that talks to MPI.
-class OwnTracing {
+/// Rank 0's own work, in a thread beside the one that talks to MPI.
+class OwnWork {
  public:
-  OwnTracing(const BakeJob& job, Tallies& tallies) : run_(job.task, job.run, tallies) {}
+  OwnWork(const BakeJob& job, Tallies& tallies) : run_(job.task, job.run, tallies) {
+    if (job.direct) direct_.emplace(job.direct->gather, job.run.threads, tallies);
+  }
 
   bool busy() const { return future_.valid(); }
-  void start(IndexRange range) {
+  void start(Order order, IndexRange range) {
     range_ = range;
     start_ = Clock::now();
-    future_ = std::async(std::launch::async, [this, range] {
-      run_.trace(range, [this](const RunProgress& p) {
-        photons_ = p.photons;
-        rays_ = p.rays;
-        return true;
-      });
+    future_ = std::async(std::launch::async, [this, order, range] {
+      order == Order::gather ? gather(range) : trace(range);
     });
   }
   /// The report of what start() began, once it is done; rethrows what went wrong.
@@ -37,18 +35,44 @@ class OwnTracing {
     future_.get();
     return RankReport{range_.size(), 0, std::chrono::duration<double>(Clock::now() - start_).count()};
   }
-  void collect(Ledger& ledger) {
+  void collect(Ledger& ledger, DirectCounts& counts) {
     run_.collect(ledger);
+    if (direct_) direct_->collect(counts);
     photons_ = rays_ = 0;
   }
   RunProgress sinceCollected() const { return {photons_, rays_}; }
 
  private:
+  void gather(IndexRange range) {
+    direct_.value().gather(range, [] { return true; });
+  }
+  void trace(IndexRange range) {
+    run_.trace(range, [this](const RunProgress& p) {
+      photons_ = p.photons;
+      rays_ = p.rays;
+      return true;
+    });
+  }
+
   PhotonRun run_;
+  std::optional<DirectRun> direct_;
   IndexRange range_;
   Clock::time_point start_;
   std::atomic<std::uint64_t> photons_{0}, rays_{0};
   std::future<void> future_;
+};
+
+/// What is left of one kind of work: `left` is not yet in the state.
+struct Deal {
+  IndexRange left;
+  RangeDealer dealer;
+  Deal(IndexRange range, int ranks, RangeDealer::Pieces pieces) : left(range), dealer(range, ranks, pieces) {}
+  /// What was dealt since the last call.
+  IndexRange take() {
+    const IndexRange taken{left.begin, dealer.begin()};
+    left.begin = dealer.begin();
+    return taken;
+  }
 };
 
 class Root {
@@ -58,11 +82,12 @@ class Root {
         job_(job),
         state_(state),
         ranks_(ranks),
-        range_(remaining(state, job.range, "the state")),
-        dealer_(range_, ranks),
+        samples_(job.direct ? remainingSamples(state, job.direct->range, "the state") : IndexRange{}, ranks, {1, 1}),
+        photons_(remaining(state, job.range, "the state"), ranks, {}),
         own_(job, state.tallies),
         writer_(job, folder),
-        free_(static_cast<std::size_t>(ranks), false) {
+        free_(static_cast<std::size_t>(ranks), false),
+        doing_(static_cast<std::size_t>(ranks), Order::trace) {
     free_[0] = true;
   }
 
@@ -76,7 +101,7 @@ class Root {
       deal();
       if (allFree()) {
         collect();
-        if (dealer_.empty()) break;
+        if (allDealt()) break;
         // Ranks that waited for the slowest, and the sum, cost tracing time like the writing does.
         writer_.save(state_, collectingSince_);
         collecting_ = false;
@@ -105,22 +130,30 @@ class Root {
   }
 
   bool take(int rank, const RankReport& report) {
-    dealer_.finished(rank, report.photons, report.seconds);
+    const Order order = doing_[static_cast<std::size_t>(rank)];
+    (order == Order::gather ? samples_ : photons_).dealer.finished(rank, report.count, report.seconds);
     free_[static_cast<std::size_t>(rank)] = true;
-    if (rank != 0) others_ = {others_.photons + report.photons, others_.rays + report.rays};
+    if (rank != 0 && order == Order::trace)
+      others_ = {others_.photons + report.count, others_.rays + report.rays};
     return true;
   }
 
+  bool allDealt() const { return samples_.dealer.empty() && photons_.dealer.empty(); }
+
   void deal() {
-    for (int rank = 0; rank < ranks_ && !collecting_ && !dealer_.empty(); ++rank) {
+    for (int rank = 0; rank < ranks_ && !collecting_ && !allDealt(); ++rank) {
       if (!free_[static_cast<std::size_t>(rank)]) continue;
-      const IndexRange piece = dealer_.next(rank);
+      const Order order = samples_.dealer.empty() ? Order::trace : Order::gather;
+      const IndexRange piece = (order == Order::gather ? samples_ : photons_).dealer.next(rank);
       free_[static_cast<std::size_t>(rank)] = false;
+      doing_[static_cast<std::size_t>(rank)] = order;
       if (rank == 0) {
-        own_.start(piece);
+        own_.start(order, piece);
       } else {
-        sendOrder(comm_, rank, {Order::trace, piece.begin, piece.end});
+        sendOrder(comm_, rank, {order, piece.begin, piece.end});
       }
+      // From here on time is that of photons.
+      if (order == Order::gather && samples_.dealer.empty()) time_.addTo(state_.header.direct->microseconds);
     }
   }
 
@@ -132,15 +165,21 @@ class Root {
   void collect() {
     for (int rank = 1; rank < ranks_; ++rank) sendOrder(comm_, rank, {Order::collect});
     Ledger ledger;
-    own_.collect(ledger);
+    DirectCounts counts;
+    own_.collect(ledger, counts);
     sumTallies(comm_, state_.tallies);
     sumLedgers(comm_, ledger);
-    state_.header.ledger += ledger;
-    checkTalliesFit(state_.header.ledger.incident);
-    state_.header.photons.add({range_.begin, dealer_.begin()});
-    range_.begin = dealer_.begin();
+    PartHeader& header = state_.header;
+    header.ledger += ledger;
+    checkTalliesFit(header.ledger.incident);
+    header.photons.add(photons_.take());
+    if (header.direct) {
+      sumCounts(comm_, counts);
+      header.direct->counts += counts;
+      header.direct->samples.add(samples_.take());
+    }
     others_ = {};
-    time_.addTo(state_.header);
+    time_.addTo(samples_.dealer.empty() ? header.microseconds : header.direct->microseconds);
     for (int rank = 1; rank < ranks_; ++rank) free_[static_cast<std::size_t>(rank)] = false;
     while (!allFree())
       if (!listen()) nap();
@@ -150,12 +189,12 @@ class Root {
   const BakeJob& job_;
   BakeState& state_;
   int ranks_;
-  IndexRange range_;  // what is not yet in the state
-  RangeDealer dealer_;
-  OwnTracing own_;
+  Deal samples_, photons_;
+  OwnWork own_;
   CheckpointWriter writer_;
   TracingTime time_;
   std::vector<bool> free_;
+  std::vector<Order> doing_;  // last
   bool collecting_ = false;
   Clock::time_point collectingSince_;
   RunProgress others_{0, 0};  // since the last collecting, of ranks 1 and up

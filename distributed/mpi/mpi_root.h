@@ -1,4 +1,4 @@
-// Rank 0: deals photons to all ranks, itself among them, and brings the tallies together.
+// Rank 0: deals samples of direct light, then photons, to all ranks, itself among them, and brings the tallies together.
 #pragma once
 
 #include <mpi.h>

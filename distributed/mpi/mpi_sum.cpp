@@ -1,6 +1,7 @@
 #include "distributed/mpi/mpi_sum.h"
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 #include <vector>
 
@@ -57,6 +58,7 @@ void sumSpan(MPI_Comm comm, std::span<std::int64_t> values) {
 void sumTallies(MPI_Comm comm, Tallies& tallies) {
   sumSpan(comm, tallies.light());
   sumSpan(comm, tallies.statistics());
+  if (tallies.direct() != nullptr) sumTallies(comm, *tallies.direct());
   if (rankOf(comm) != 0) tallies.clear();
 }
 
@@ -69,6 +71,12 @@ void sumLedgers(MPI_Comm comm, Ledger& ledger) {
   } else {
     ledger = {};
   }
+}
+
+void sumCounts(MPI_Comm comm, DirectCounts& counts) {
+  std::array<std::uint64_t, 3> all{counts.places, counts.clamped, counts.strayValues}, sum{};
+  checkMpi(MPI_Reduce(all.data(), sum.data(), 3, MPI_UINT64_T, MPI_SUM, 0, comm), "MPI_Reduce");
+  counts = {sum[0], sum[1], sum[2]};
 }
 
 }  // namespace lucarne

@@ -9,7 +9,8 @@ namespace lucarne {
 
 /// Adds the tallies of all ranks into those of rank 0, in blocks, and empties the others'. Collective.
 void sumTallies(MPI_Comm comm, Tallies& tallies);
-/// The same for ledgers.
+/// The same for what was counted beside them.
 void sumLedgers(MPI_Comm comm, Ledger& ledger);
+void sumCounts(MPI_Comm comm, DirectCounts& counts);
 
 }  // namespace lucarne

@@ -18,10 +18,18 @@ RankReport traceRange(PhotonRun& run, IndexRange range, std::uint64_t& rays) {
   return {range.size(), rays - before, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
+RankReport gatherRange(DirectRun& run, IndexRange range) {
+  const auto start = std::chrono::steady_clock::now();
+  run.gather(range, [] { return true; });
+  return {range.size(), 0, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+}
+
 }  // namespace
 
 void runWorker(MPI_Comm comm, const BakeJob& job, BakeState& state) {
   PhotonRun run(job.task, job.run, state.tallies);
+  std::optional<DirectRun> direct;
+  if (job.direct) direct.emplace(job.direct->gather, job.run.threads, state.tallies);
   RankReport report;
   std::uint64_t rays = 0;  // since the last collecting
   for (;;) {
@@ -33,9 +41,18 @@ void runWorker(MPI_Comm comm, const BakeJob& job, BakeState& state) {
       report = traceRange(run, {order.begin, order.end}, rays);
       continue;
     }
+    if (order.order == Order::gather) {
+      report = gatherRange(direct.value(), {order.begin, order.end});
+      continue;
+    }
     run.collect(state.header.ledger);
     sumTallies(comm, state.tallies);
     sumLedgers(comm, state.header.ledger);
+    if (direct) {
+      DirectCounts counts;
+      direct->collect(counts);
+      sumCounts(comm, counts);
+    }
     rays = 0;
   }
 }

@@ -68,7 +68,10 @@ struct PathTracer::Vertex {
 };
 
 PathTracer::PathTracer(const PhotonScene& scene, const PathLimits& limits)
-    : scene_(scene), lights_(scene.scene(), scene.emitters(), scene.surfaces()), limits_(limits) {}
+    : scene_(scene),
+      lights_(scene.scene(), scene.emitters(), scene.surfaces()),
+      limits_(limits),
+      raysFindLight_(scene.emitters().hasSky() || scene.emitters().faceCount() > 0) {}
 
 Rgb PathTracer::transmittance(std::uint32_t medium, double localDistance) const {
   if (medium == kNone || scene_.surfaces().attenuation(medium).clear()) return Rgb(1.f);
@@ -151,30 +154,35 @@ bool PathTracer::walkOn(Walk& walk, const Vertex& v, std::uint32_t event, const 
   return true;
 }
 
+std::optional<Hit> PathTracer::advance(Walk& walk, std::uint32_t event, const PhotonSampler& sampler,
+                                       Rgb& seen) const {
+  std::uint64_t repeats = 0;
+  Hit hit;
+  const bool met = meetSurface<true>(
+      scene_, walk.ray, repeats, [](std::uint32_t) {},
+      [&](const Hit& h, std::uint32_t layer) {
+        return goesThroughByChance(scene_.surfaces(), h, layer, [&](std::uint32_t block) {
+          return sampler.words(event + (block << 16), Stream::coverage);
+        });
+      },
+      hit);
+  if (!met) {
+    seen += walk.throughput * sky(walk);
+    return std::nullopt;
+  }
+  const bool inside = hit.back && scene_.surfaces().solid(hit.material);
+  if (inside) walk.medium = hit.material;
+  walk.throughput = walk.throughput * transmittance(walk.medium, length(hit.position - Vec3d(walk.ray.origin)));
+  seen += walk.throughput * emitted(hit, walk);
+  return hit;
+}
+
 PathTracer::Found PathTracer::follow(Walk walk, const PhotonSampler& sampler) const {
   Found found;
-  std::uint64_t repeats = 0;
   for (std::uint32_t event = 1;; ++event) {
-    Rgb& seen = event == 1 ? found.direct : found.indirect;
-    Hit hit;
-    const bool met = meetSurface<true>(
-        scene_, walk.ray, repeats, [](std::uint32_t) {},
-        [&](const Hit& h, std::uint32_t layer) {
-          return goesThroughByChance(scene_.surfaces(), h, layer, [&](std::uint32_t block) {
-            return sampler.words(event + (block << 16), Stream::coverage);
-          });
-        },
-        hit);
-    if (!met) {
-      seen += walk.throughput * sky(walk);
-      return found;
-    }
-    const bool inside = hit.back && scene_.surfaces().solid(hit.material);
-    if (inside) walk.medium = hit.material;
-    walk.throughput = walk.throughput * transmittance(walk.medium, length(hit.position - Vec3d(walk.ray.origin)));
-    seen += walk.throughput * emitted(hit, walk);
-    if (isBlackBack(scene_, hit) || event > limits_.depth) return found;
-    const Vertex vertex(scene_, hit, -walk.ray.direction, walk.medium);
+    const std::optional<Hit> hit = advance(walk, event, sampler, event == 1 ? found.direct : found.indirect);
+    if (!hit || isBlackBack(scene_, *hit) || event > limits_.depth) return found;
+    const Vertex vertex(scene_, *hit, -walk.ray.direction, walk.medium);
     if (!(vertex.woLocal.z > 0)) return found;
     found.indirect += walk.throughput *
                       (lightAt(vertex, Source::lamps, event, sampler) + lightAt(vertex, Source::sky, event, sampler));
@@ -189,8 +197,7 @@ Rgb PathTracer::radiance(const RayStart& ray, const PhotonSampler& sampler) cons
   return found.direct + found.indirect;
 }
 
-ReceivedLight PathTracer::receive(const Receiver& at, const PhotonSampler& sampler) const {
-  ReceivedLight received;
+void PathTracer::receiveLights(const Receiver& at, const PhotonSampler& sampler, ReceivedLight& received) const {
   const Vec3f origin = RayCaster::leave(at.hit.position, at.n, at.hit.clearance);
   for (const Source source : {Source::lamps, Source::sky}) {
     const auto light = sampleLight(source, at.hit.position, 0, sampler);
@@ -202,18 +209,41 @@ ReceivedLight PathTracer::receive(const Receiver& at, const PhotonSampler& sampl
     const Rgb visible = visibility({origin, light->wi, at.hit.triangle}, *light, kNone);
     received.add(light->wi, light->weight * visible * (factor * weight), true);
   }
+}
+
+/// In a direction with the density of the cosine, or without throughput where the interpolated normal takes no light.
+PathTracer::Walk PathTracer::walkFrom(const Receiver& at, const PhotonSampler& sampler) const {
   const auto u = sampler.floats(0, Stream::scatter);
   const Vec3f wiLocal = sampleCosineHemisphere({u[1], u[2]});
   const Vec3f wi = normalize(Frame<float>(at.n).toWorld(wiLocal));
   Walk walk;
-  walk.ray = {origin, wi, at.hit.triangle};
+  walk.ray = {RayCaster::leave(at.hit.position, at.n, at.hit.clearance), wi, at.hit.triangle};
   walk.from = at.hit.position;
   walk.throughput = Rgb(kPi * clampedReception(wi, at.n, at.ns));
   walk.pdf = static_cast<double>(wiLocal.z / kPi);
+  return walk;
+}
+
+ReceivedLight PathTracer::receive(const Receiver& at, const PhotonSampler& sampler) const {
+  ReceivedLight received;
+  receiveLights(at, sampler, received);
+  const Walk walk = walkFrom(at, sampler);
   if (!(maxComponent(walk.throughput) > 0)) return received;
   const Found found = follow(walk, sampler);
-  received.add(wi, found.direct, true);
-  received.add(wi, found.indirect, false);
+  received.add(walk.ray.direction, found.direct, true);
+  received.add(walk.ray.direction, found.indirect, false);
+  return received;
+}
+
+ReceivedLight PathTracer::receiveDirect(const Receiver& at, const PhotonSampler& sampler) const {
+  ReceivedLight received;
+  receiveLights(at, sampler, received);
+  if (!raysFindLight_) return received;
+  Walk walk = walkFrom(at, sampler);
+  if (!(maxComponent(walk.throughput) > 0)) return received;
+  Rgb seen{};
+  advance(walk, 1, sampler, seen);
+  received.add(walk.ray.direction, seen, true);
   return received;
 }
 

@@ -51,6 +51,8 @@ class PathTracer {
   Rgb radiance(const RayStart& ray, const PhotonSampler& sampler) const;
   /// One sample of the light that falls on a place: Σ lux is an unbiased estimate of the irradiance.
   ReceivedLight receive(const Receiver& at, const PhotonSampler& sampler) const;
+  /// The direct pieces of receive(), of the same numbers: nothing is followed beyond the first surface.
+  ReceivedLight receiveDirect(const Receiver& at, const PhotonSampler& sampler) const;
 
  private:
   /// A ray on its way, what its light counts, and how likely its direction was (per steradian; 0: given).
@@ -68,6 +70,10 @@ class PathTracer {
   enum class Source { lamps, sky };
 
   Found follow(Walk walk, const PhotonSampler& sampler) const;
+  /// To the next surface, none when it is the sky's; adds what shines from either to `seen`.
+  std::optional<Hit> advance(Walk& walk, std::uint32_t event, const PhotonSampler& sampler, Rgb& seen) const;
+  void receiveLights(const Receiver& at, const PhotonSampler& sampler, ReceivedLight& received) const;
+  Walk walkFrom(const Receiver& at, const PhotonSampler& sampler) const;
   bool walkOn(Walk& walk, const Vertex& vertex, std::uint32_t event, const PhotonSampler& sampler) const;
   std::optional<LightSample> sampleLight(Source source, Vec3d from, std::uint32_t event,
                                          const PhotonSampler& sampler) const;
@@ -81,6 +87,7 @@ class PathTracer {
   const PhotonScene& scene_;
   LightSampler lights_;
   PathLimits limits_;
+  bool raysFindLight_;  // there is light with an extent
 };
 
 }  // namespace lucarne

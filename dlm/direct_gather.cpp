@@ -1,0 +1,152 @@
+#include "dlm/direct_gather.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/float_mode.h"
+
+namespace lucarne {
+namespace {
+
+constexpr int kTile = 32;  // texels along an edge
+constexpr float kLargestSquare = 0x1p18f;
+
+std::vector<TexelTile> tilesOf(const TexelLayout& layout, const TallyLayout& tallies) {
+  std::vector<TexelTile> tiles;
+  for (std::uint32_t c = 0; c < layout.charts.size(); ++c) {
+    if (tallies.frontSide[c] == kNone && tallies.backSide[c] == kNone) continue;
+    const ChartLayout& chart = layout.charts[c];
+    for (int y = 0; y < chart.height; y += kTile)
+      for (int x = 0; x < chart.width; x += kTile)
+        tiles.push_back({c, x, y, std::min(kTile, chart.width - x), std::min(kTile, chart.height - y)});
+  }
+  return tiles;
+}
+
+/// Eight bits at a time for rounding, from numbers of a sample that nothing else uses.
+class RoundingBits {
+ public:
+  RoundingBits(const std::array<std::uint32_t, 4>& words, std::uint64_t number)
+      : key_(mix64(number) ^ (std::uint64_t{words[3]} << 32)) {}
+  std::uint32_t next() { return static_cast<std::uint32_t>(mix64(key_ += 0x9e3779b97f4a7c15u) >> 56); }
+
+ private:
+  std::uint64_t key_;
+};
+
+}  // namespace
+
+double directUnit(double emittedFlux, const TexelLayout& layout, double metresPerLocal) {
+  const double local = std::accumulate(layout.area.begin(), layout.area.end(), 0.0);
+  const double area = local * metresPerLocal * metresPerLocal;
+  return area > 0 && emittedFlux > 0 ? emittedFlux / area : 1;
+}
+
+DirectGather::DirectGather(const GatherScene& scene, const PhotonSeed& seed)
+    : in_(scene),
+      seed_(mix64(seed.seed ^ 0x6469726563746c79u), seed.kind),  // other numbers than those of photons
+      paths_(scene.scene),
+      unit_(directUnit(scene.scene.emitters().totalFlux(), scene.layout, scene.scene.scene().frame.scale)),
+      tiles_(tilesOf(scene.layout, scene.tallies)) {
+  LUCARNE_CHECK_LE(scene.tallies.texels, std::uint64_t{1} << 32);
+}
+
+/// One texel of one side, and its tallies.
+class DirectGather::Texel {
+ public:
+  Texel(const DirectGather& gather, const TallySide& side, std::uint64_t texel, const Tallies& set)
+      : gather_(gather),
+        side_(side),
+        members_(gather.in_.tallies.membersOf(side)),
+        number_((side.firstTexel + texel) << 32),
+        light_(set.light().data() + (side.firstLight + texel) * kLightChannels),
+        statistics_(set.statistics().data() + (side.firstTexel + texel) * kStatisticsChannels) {}
+
+  /// `share`: surface over area of the texel.
+  void sample(std::uint64_t s, const TexelSurface& surface, std::size_t t, double share, DirectCounts& counts) const {
+    const PhotonSampler sampler(gather_.seed_, number_ + s);
+    const auto w = sampler.words(0, Stream::place);
+    const TexelPlace place = surface.sample(t, {toUnitFloat(w[0]), toUnitFloat(w[1]), toUnitFloat(w[2])});
+    const Receiver at = receiverAt(gather_.in_.scene, place.triangle, place.b, side_.back);
+    ++counts.places;
+    const auto alpha = static_cast<double>(gather_.in_.scene.surfaces().coverage(placeOf(at.hit), side_.back));
+    if (!(alpha > 0)) return;
+    const ReceivedLight light = gather_.paths_.receiveDirect(at, sampler);
+    if (light.count == 0) return;
+    RoundingBits bits(w, number_ + s);
+    float sum = 0;
+    for (std::size_t i = 0; i < light.count; ++i)
+      sum += add(light.pieces[i], alpha * share / gather_.unit_, bits, counts);
+    statistics_[0] += 1;
+    statistics_[1] += roundUnits(std::min(sum * sum, kLargestSquare), bits.next());
+  }
+
+ private:
+  /// Returns the luminance.
+  float add(const ReceivedLight::Piece& piece, double scale, RoundingBits& bits, DirectCounts& counts) const {
+    Rgb value(Rgbd(piece.lux) * scale);
+    if (!isFinite(value) || minComponent(value) < 0) {
+      ++counts.strayValues;
+      return 0;
+    }
+    if (const float most = maxComponent(value); most > kLargestDirectValue) {
+      value *= kLargestDirectValue / most;
+      ++counts.clamped;
+    }
+    const std::size_t rank = members_.members.empty()
+                                 ? 0
+                                 : members_.rank[static_cast<std::size_t>(gather_.in_.directions.nearest(piece.wi))];
+    std::int64_t* at = light_ + rank * side_.texelCount() * kLightChannels;
+    at[0] += roundUnits(value.x, bits.next());
+    at[1] += roundUnits(value.y, bits.next());
+    at[2] += roundUnits(value.z, bits.next());
+    return luminance(value);
+  }
+
+  const DirectGather& gather_;
+  const TallySide& side_;
+  const MemberSet& members_;
+  std::uint64_t number_;  // of sample 0
+  std::int64_t* light_;
+  std::int64_t* statistics_;
+};
+
+DirectCounts DirectGather::gatherTile(const TexelTile& tile, IndexRange samples, const Tallies& set) const {
+  const FlushDenormals mode;
+  const ChartLayout& chart = in_.layout.charts[tile.chart];
+  const TexelSurface surface(in_.scene.scene(), in_.charts, in_.layout, tile);
+  DirectCounts counts;
+  for (std::size_t t = 0; t < static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height); ++t) {
+    const int x = tile.x + static_cast<int>(t) % tile.width, y = tile.y + static_cast<int>(t) / tile.width;
+    const auto texel =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(chart.width) + static_cast<std::uint64_t>(x);
+    const double area = in_.layout.area[chart.firstTexel + texel];
+    if (!(area > 0 && surface.area(t) > 0)) continue;
+    for (const std::uint32_t s : {in_.tallies.frontSide[tile.chart], in_.tallies.backSide[tile.chart]}) {
+      if (s == kNone) continue;
+      const Texel one(*this, in_.tallies.sides[s], texel, set);
+      for (std::uint64_t i = samples.begin; i < samples.end; ++i)
+        one.sample(i, surface, t, surface.area(t) / area, counts);
+    }
+  }
+  return counts;
+}
+
+DirectCounts DirectGather::gather(IndexRange samples, const Tallies& tallies) const {
+  LUCARNE_CHECK_EQ(tallies.direct() != nullptr, true);
+  LUCARNE_CHECK_LE(samples.end, kMostDirectSamples);
+  std::atomic<std::uint64_t> places{0}, clamped{0}, strays{0};
+  tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
+    const DirectCounts counts = gatherTile(tiles_[i], samples, *tallies.direct());
+    places += counts.places;
+    clamped += counts.clamped;
+    strays += counts.strayValues;
+  });
+  return {places, clamped, strays};
+}
+
+}  // namespace lucarne
