@@ -24,7 +24,7 @@ struct BakeJob {
   double checkpointSeconds = 300;       // 0: no states
   bool lastStateIsWanted = false;  // for itself; else it only guards what follows, and failing to save it is no error
   std::function<void(const RunProgress&)> progress;  // photons and rays so far, earlier runs included
-  std::optional<DirectJob> direct;
+  std::optional<DirectJob> direct = {};
 };
 
 /// What there is of a bake: its header says of which photons.

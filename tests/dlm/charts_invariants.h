@@ -10,6 +10,7 @@
 
 #include "dlm/charts.h"
 #include "tests/support/scene_builder.h"
+#include "tracer/scene/scene_cleanup.h"
 
 namespace lucarne::test {
 
@@ -92,7 +93,7 @@ inline void expectPartition(const Scene& scene, const ChartSet& set) {
   for (std::uint32_t t = 0; t < seen.size(); ++t) {
     ASSERT_EQ(seen[t], set.chartOfTriangle[t] == kNone ? 0 : 1);
     if (set.chartOfTriangle[t] == kNone) {
-      ASSERT_LT(triangleArea(scene, t), 1e-9);
+      ASSERT_TRUE(isSkipped(scene, t) || triangleArea(scene, t) < 1e-9);
     }
   }
 }

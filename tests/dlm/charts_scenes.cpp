@@ -40,7 +40,12 @@ TEST_P(ChartsOfScenes, AreFewAndKeepEveryInvariant) {
 
   const TexelLayout layout = layOutTexels(scene, set, {});
   EXPECT_LE(layout.texelCount, LayoutOptions{}.texelBudget);
-  EXPECT_NEAR(std::accumulate(layout.area.begin(), layout.area.end(), 0.0), area, 1e-9 * area);
+  const double laidOut = std::accumulate(layout.area.begin(), layout.area.end(), 0.0);
+  EXPECT_LE(laidOut, area * (1 + 1e-9));
+  const bool holes = std::any_of(scene.materials.begin(), scene.materials.end(), [](auto& m) { return m.hasAlpha(); });
+  if (!holes) {
+    EXPECT_GE(laidOut, area * (1 - 1e-9));
+  }
   std::vector<RectSize> sizes;
   for (const ChartLayout& chart : layout.charts) sizes.push_back({chart.width, chart.height});
   const Packing packing = packRectangles(sizes, {});
