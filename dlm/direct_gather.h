@@ -18,7 +18,7 @@
 namespace lucarne {
 
 /// Samples a texel at most, and the largest value that one may add: three of them in each sample still fit 63 bits.
-/// A value beyond, a hand's breadth of millimetres from a bulb, is cut there and counted.
+/// A value beyond, millimetres from a bulb, is cut there and counted.
 inline constexpr std::uint64_t kMostDirectSamples = std::uint64_t{1} << 20;
 inline constexpr float kLargestDirectValue = 0x1p16f;
 

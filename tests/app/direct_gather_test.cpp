@@ -124,6 +124,43 @@ TEST(GatheredAlone, UnderABulbIsTheInverseSquare) {
     }
 }
 
+/// A lamp that is seen at a slant must not lie in its own shadow, by however little the ray starts off the wall.
+TEST(GatheredAlone, OfAStripBeforeAWallIsItsIntegral) {
+  test::SceneBuilder s;
+  s.addBox({-3, 0, -2.25}, {3, 2.7, 2.25}, s.addDiffuse(Rgb(0.5f)), true);
+  s.addQuad({1.15, 2.4, -1.855}, {-1.15, 2.4, -1.855}, {-1.15, 2.5, -1.855}, {1.15, 2.5, -1.855},
+            s.addDiffuse(Rgb(0.f), Rgb(4200.f)));  // faces the wall
+  const Scene scene = s.build();
+  const PhotonScene photonScene(scene);
+  const PathTracer paths(photonScene);
+  constexpr std::uint64_t kPlaces = 3, kSamples = 4096;
+  for (std::uint64_t i = 0; i < kPlaces; ++i) {
+    const Vec3d at{0.11 + 0.2 * static_cast<double>(i), 1.93 - 0.31 * static_cast<double>(i), -2.25};
+    double expected = 0;
+    constexpr int kX = 460, kY = 20;
+    for (int k = 0; k < kX * kY; ++k) {
+      const Vec3d to = Vec3d{-1.15 + 2.3 * (k % kX + 0.5) / kX, 2.4 + 0.1 * (k / kX + 0.5) / kY, -1.855} - at;
+      expected += 4200 * to.z * to.z / (dot(to, to) * dot(to, to)) * 2.3 * 0.1 / (kX * kY);
+    }
+    const Vec3f eye(scene.frame.toLocal(at + Vec3d{0, 0, 0.1})), ahead{0, 0, -1};
+    std::uint64_t repeats = 0;
+    const auto wall = photonScene.rayCaster().nearest(eye, ahead, kNone, repeats);
+    const Hit hit = photonScene.rayCaster().intersect(wall, eye, ahead);
+    const Receiver receiver = receiverAt(photonScene, wall, hit.b, false);
+    double sum = 0, squares = 0;
+    for (std::uint64_t k = 0; k < kSamples; ++k) {
+      const ReceivedLight light = paths.receiveDirect(receiver, {{7, SamplerKind::random}, kSamples * i + k});
+      double e = 0;
+      for (std::size_t p = 0; p < light.count; ++p) e += static_cast<double>(light.pieces[p].lux.y);
+      sum += e;
+      squares += e * e;
+    }
+    const double mean = sum / kSamples, error = std::sqrt((squares / kSamples - mean * mean) / kSamples);
+    EXPECT_LT(std::abs(mean - expected), 5 * error + 0.002 * expected) << i;
+    EXPECT_LT(error, 0.03 * expected);
+  }
+}
+
 TEST(GatheredAlone, HasAnErrorThatItKnows) {
   BakeOptions o = directAlone(2);
   o.directSamples = 64;
