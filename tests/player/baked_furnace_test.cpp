@@ -160,7 +160,7 @@ struct Result {
 
 Result judge(const ImageRgb& image, const std::vector<Question>& questions, const Material& material,
              const DirectionSet& set, float exponent) {
-  const Bsdf bsdf = makeBsdf(material, material.baseColor, material.metallic, material.roughness);
+  const Bsdf bsdf = makeBsdf(material, factorsOf(material));
   Result r;
   for (const Question& q : questions) {
     const Rgb expected = Coat(bsdf).albedo(q.cosine).total;
