@@ -130,7 +130,7 @@ template <class CosineAt>
 double worstHighlight(const BakedScene& baked, float L, const CosineAt& cosineAt, int size) {
   const ImageRgb image = render(baked, RendererKind::singlepass, LightMapFormat::float32, size, size);
   const Bsdf bsdf =
-      makeBsdf(baked.scene.materials[0], baked.scene.materials[0].baseColor, 1, baked.scene.materials[0].roughness);
+      makeBsdf(baked.scene.materials[0], factorsOf(baked.scene.materials[0]));
   double worst = 0;
   int shown = 0;
   for (int y = 0; y < size; ++y) {
@@ -217,7 +217,7 @@ TEST_F(Renderers, AgreesWithTheReferenceOnThePlate) {
     values.push_back(d.stored() ? baked.maps.directional[d.first] : Rgb{});
   }
   const Material& material = baked.scene.materials[0];
-  const Bsdf bsdf = makeBsdf(material, material.baseColor, material.metallic, material.roughness);
+  const Bsdf bsdf = makeBsdf(material, factorsOf(material));
   for (int y = 0; y < 25; ++y) {
     for (int x = 0; x < 25; ++x) {
       const Vec3f toEye(-rayThrough(camera, x, y, 25));
