@@ -77,7 +77,9 @@ IndexRange samplesOf(const BakeOptions& o) {
   if (!gathersDirect(o)) return {};
   const IndexRange photons = photonsOf(o);
   __extension__ typedef unsigned __int128 Wide;  // holds any product of two numbers of 64 bits
-  const auto cut = [&](std::uint64_t i) { return static_cast<std::uint64_t>(Wide{o.directSamples} * i / o.photons); };
+  const auto cut = [&](std::uint64_t i) {
+    return static_cast<std::uint64_t>((Wide{o.directSamples} * i + o.photons - 1) / o.photons);
+  };
   return {cut(photons.begin), cut(photons.end)};
 }
 

@@ -9,9 +9,9 @@ namespace {
 
 class Gathered : public test::ProgramTest {
  protected:
-  static std::string options(const std::string& output) {
-    return std::string(test::kQuickScene) +
-           "--density 10 --quiet --direct gathered --direct-samples 12 --photons 200k -o " + output + " ";
+  static std::string options(const std::string& output,
+                             const std::string& size = "--direct-samples 12 --photons 200k") {
+    return std::string(test::kQuickScene) + "--density 10 --quiet --direct gathered " + size + " -o " + output + " ";
   }
 };
 
@@ -59,9 +59,9 @@ TEST_F(Gathered, KilledAndResumedGivesTheBitsOfTheUndisturbed) {
 
 TEST_F(Gathered, AKeptPartTakesMorePhotonsAndSamples) {
   mustRun("bake" + options("room.dlm") + "--keep-part");
-  const std::string more = " --photons 300k --direct-samples 18";
-  mustRun("bake" + options("room.dlm") + "--keep-part --resume" + more);
-  mustRun("bake" + options("whole.dlm") + more);
+  const std::string more = "--direct-samples 18 --photons 300k";
+  mustRun("bake" + options("room.dlm", more) + "--keep-part --resume");
+  mustRun("bake" + options("whole.dlm", more));
   EXPECT_TRUE(same("room.dlm", "whole.dlm"));
 }
 
