@@ -26,8 +26,8 @@ namespace {
 
 /// Tallies and maps exist together while resolving, in one process. `processes` of them share the machine's memory.
 void checkMemory(const BakePlan& plan, const BakeOptions& options, int processes) {
-  const std::uint64_t needed = tallyBytes(plan, options) * static_cast<std::uint64_t>(processes) +
-                               memoryOfMaps(plan.tallies.bytes());
+  const std::uint64_t needed =
+      tallyBytes(plan, options) * static_cast<std::uint64_t>(processes) + memoryOfMaps(plan.tallies.bytes());
   const std::uint64_t available = availableMemoryBytes();
   if (needed <= available) return;
   throw Error(ExitCode::outOfResource, "light maps need " + formatBytes(needed) + " and " + formatBytes(available) +

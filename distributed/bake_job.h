@@ -43,8 +43,8 @@ IndexRange remaining(const BakeState& state, IndexRange range, const std::string
 /// The same of samples; the state must be one of gathered direct light.
 IndexRange remainingSamples(const BakeState& state, IndexRange range, const std::string& file);
 
-/// Gathers and traces what is left of the job's ranges, in order, into `state`. Saves a state every checkpointSeconds and at the
-/// end; one that fails is warned of and tried again at the next. `folder` may be null: nothing is saved.
+/// Gathers and traces what is left of the job's ranges, in order, into `state`. Saves a state every checkpointSeconds
+/// and at the end; one that fails is warned of and tried again at the next. `folder` may be null: nothing is saved.
 void runJob(const BakeJob& job, BakeState& state, CheckpointFolder* folder);
 
 /// Saves states of a running job when they are due.

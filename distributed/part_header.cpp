@@ -233,8 +233,7 @@ PartHeader partHeaderFrom(const JsonView& v) {
   h.sceneBytes = v.at("scene_bytes").count();
   const JsonView sets = v.at("tally_sets");
   const bool known = sets.size() == 1 || (sets.size() == 2 && sets.at(1).at("name").text() == "direct");
-  if (!known || sets.at(0).at("name").text() != "photons")
-    sets.refuse("has tallies that this program does not know");
+  if (!known || sets.at(0).at("name").text() != "photons") sets.refuse("has tallies that this program does not know");
   readPhotonSet(sets.at(0), h);
   if (sets.size() == 2) {
     h.direct = directFrom(sets.at(1));

@@ -61,7 +61,8 @@ void join(PartLayer layer, const std::uint32_t* row, std::size_t pixels, std::in
 ExrRows partRows(const PartHeader& header, const std::string& file) {
   std::vector<ExrRowsLayer> layers = {{"scene", {"bytes"}, rowsFor((header.sceneBytes + 3) / 4, file)}};
   const auto addSet = [&](const std::string& name) {
-    layers.push_back({name + ".light", {"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}, rowsFor(header.lightEntries, file)});
+    layers.push_back(
+        {name + ".light", {"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}, rowsFor(header.lightEntries, file)});
     layers.push_back({name + ".statistics", {"count.hi", "count.lo", "m2.hi", "m2.lo"}, rowsFor(header.texels, file)});
   };
   addSet("photons");

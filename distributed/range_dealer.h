@@ -16,7 +16,8 @@ class RangeDealer {
   struct Pieces {
     std::uint64_t first = 16384, smallest = 4096;
   };
-  RangeDealer(IndexRange range, int ranks, Pieces pieces) : left_(range), pieces_(pieces), rates_(static_cast<std::size_t>(ranks), 0.0) {}
+  RangeDealer(IndexRange range, int ranks, Pieces pieces)
+      : left_(range), pieces_(pieces), rates_(static_cast<std::size_t>(ranks), 0.0) {}
   RangeDealer(IndexRange range, int ranks) : RangeDealer(range, ranks, Pieces{}) {}
   /// The next piece; empty when all is dealt.
   IndexRange next(int rank);

@@ -108,8 +108,8 @@ struct SideInput {
   }
 };
 
-/// Of a sum of N independent photons: Var(Σx) ≈ (Σx² − (Σx)²/N)·N/(N − 1), luminance, lx². One photon tells nothing about
-/// its spread; it is taken for one of many. `irradiance`: of the photons.
+/// Of a sum of N independent photons: Var(Σx) ≈ (Σx² − (Σx)²/N)·N/(N − 1), luminance, lx². One photon tells nothing
+/// about its spread; it is taken for one of many. `irradiance`: of the photons.
 std::vector<double> photonVariances(const SideInput& s, const std::vector<Rgbd>& irradiance) {
   std::vector<double> squares = s.resolver.filterSquares(statisticsOf(s.in.tallies, s.side), 1);
   const double unitsToFraction = 1 / static_cast<double>(kFixedPointOne), n = static_cast<double>(s.in.photons);
@@ -141,7 +141,8 @@ std::vector<double> directVariances(const SideInput& s) {
   const double one = static_cast<double>(kFixedPointOne), n = static_cast<double>(s.in.samples);
   std::vector<double> terms = gatheredUnits(s);
   for (std::size_t t = 0; t < terms.size(); ++t) {
-    const double mean = terms[t] / (n * one), square = static_cast<double>(pairs[kStatisticsChannels * t + 1]) / (n * one);
+    const double mean = terms[t] / (n * one),
+                 square = static_cast<double>(pairs[kStatisticsChannels * t + 1]) / (n * one);
     const double variance = s.in.samples > 1 ? std::max(0.0, square - mean * mean) / (n - 1) : square;
     terms[t] = s.area()[t] * s.area()[t] * variance;
   }

@@ -25,9 +25,8 @@ class OwnWork {
   void start(Order order, IndexRange range) {
     range_ = range;
     start_ = Clock::now();
-    future_ = std::async(std::launch::async, [this, order, range] {
-      order == Order::gather ? gather(range) : trace(range);
-    });
+    future_ =
+        std::async(std::launch::async, [this, order, range] { order == Order::gather ? gather(range) : trace(range); });
   }
   /// The report of what start() began, once it is done; rethrows what went wrong.
   std::optional<RankReport> finished() {
@@ -133,8 +132,7 @@ class Root {
     const Order order = doing_[static_cast<std::size_t>(rank)];
     (order == Order::gather ? samples_ : photons_).dealer.finished(rank, report.count, report.seconds);
     free_[static_cast<std::size_t>(rank)] = true;
-    if (rank != 0 && order == Order::trace)
-      others_ = {others_.photons + report.count, others_.rays + report.rays};
+    if (rank != 0 && order == Order::trace) others_ = {others_.photons + report.count, others_.rays + report.rays};
     return true;
   }
 
