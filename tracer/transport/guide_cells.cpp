@@ -27,11 +27,11 @@ std::size_t poolOf(std::size_t cell, const GuideGrid& fine, const GuideGrid& coa
 std::vector<double> usefulness(const GuideCells& cells, double pull) {
   const GuideCells::Sums all = cells.whole();
   const auto n = static_cast<double>(all.photons);
-  const double square = static_cast<double>(all.squares) / n, rays = static_cast<double>(all.rays) / n;
+  const double square = static_cast<double>(all.squares) / n, cost = static_cast<double>(all.cost) / n;
   std::vector<double> useful;
   for (const GuideCells::Sums& c : cells.cells()) {
-    const double m = static_cast<double>(c.squares) + pull * square, cost = static_cast<double>(c.rays) + pull * rays;
-    useful.push_back(std::sqrt(m / cost));
+    const double m = static_cast<double>(c.squares) + pull * square, c1 = static_cast<double>(c.cost) + pull * cost;
+    useful.push_back(std::sqrt(m / c1));
   }
   return useful;
 }
@@ -42,22 +42,22 @@ double gainOf(const EmissionGuide& guide, const GuideCells& judged) {
   for (std::size_t c = 0; c < judged.cells().size(); ++c) {
     const double w = guide.densityOf(c);
     square += static_cast<double>(judged.cells()[c].squares) / w;
-    cost += static_cast<double>(judged.cells()[c].rays) * w;
+    cost += static_cast<double>(judged.cells()[c].cost) * w;
   }
   const GuideCells::Sums all = judged.whole();
-  return square * cost > 0 ? static_cast<double>(all.squares) * static_cast<double>(all.rays) / (square * cost) : 1;
+  return square * cost > 0 ? static_cast<double>(all.squares) * static_cast<double>(all.cost) / (square * cost) : 1;
 }
 
 }  // namespace
 
 GuideCells::GuideCells(GuideGrid grid) : grid_(grid), cells_(grid.cells()) {}
 
-void GuideCells::add(std::size_t cell, std::uint64_t rays, float square) {
+void GuideCells::add(std::size_t cell, std::uint64_t cost, float square) {
   const auto plus = [](std::uint64_t& sum, std::uint64_t value) {
     std::atomic_ref<std::uint64_t>(sum).fetch_add(value, std::memory_order_relaxed);
   };
   plus(cells_[cell].photons, 1);
-  plus(cells_[cell].rays, rays);
+  plus(cells_[cell].cost, cost);
   plus(cells_[cell].squares, static_cast<std::uint64_t>(std::min(square, kLargestSquare) * kSquareUnits));
 }
 
@@ -66,7 +66,7 @@ GuideCells GuideCells::pooled(GuideGrid coarse) const {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     Sums& into = result.cells_[poolOf(c, grid_, coarse)];
     into.photons += cells_[c].photons;
-    into.rays += cells_[c].rays;
+    into.cost += cells_[c].cost;
     into.squares += cells_[c].squares;
   }
   return result;
@@ -76,7 +76,7 @@ void GuideCells::add(const GuideCells& other) {
   LUCARNE_CHECK_EQ(cells_.size(), other.cells_.size());
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     cells_[c].photons += other.cells_[c].photons;
-    cells_[c].rays += other.cells_[c].rays;
+    cells_[c].cost += other.cells_[c].cost;
     cells_[c].squares += other.cells_[c].squares;
   }
 }
@@ -85,7 +85,7 @@ GuideCells::Sums GuideCells::whole() const {
   Sums all;
   for (const Sums& c : cells_) {
     all.photons += c.photons;
-    all.rays += c.rays;
+    all.cost += c.cost;
     all.squares += c.squares;
   }
   return all;

@@ -13,14 +13,14 @@ class GuideCells {
  public:
   explicit GuideCells(GuideGrid grid);
 
-  /// A photon of the cell took so many rays and left light whose squares sum to `square`. From any thread.
-  void add(std::size_t cell, std::uint64_t rays, float square);
+  /// A photon of the cell cost so much and left light whose squares sum to `square`. From any thread.
+  void add(std::size_t cell, std::uint64_t cost, float square);
   /// The same counts on a grid that is coarser by whole factors.
   GuideCells pooled(GuideGrid coarse) const;
   void add(const GuideCells& other);
 
   struct Sums {
-    std::uint64_t photons = 0, rays = 0, squares = 0;
+    std::uint64_t photons = 0, cost = 0, squares = 0;
   };
   const GuideGrid& grid() const { return grid_; }
   const std::vector<Sums>& cells() const { return cells_; }
