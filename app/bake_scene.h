@@ -30,11 +30,11 @@ Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOption
 Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, const PartHeader& header,
                   const Tallies& tallies);
 
-/// What tracing needs to know of the options.
 /// Gives the scene its emission guides, where the options want them and a pilot finds them worth it, and the options the
 /// hashes of what photons depend on. Takes the threads of the options.
 void prepareEmission(PhotonScene& scene, BakeOptions& options);
 
+/// What tracing needs to know of the options.
 PhotonRunOptions runOptions(const BakeOptions& options);
 
 /// As typed, or all of the machine's.

@@ -20,7 +20,7 @@ struct Evaluation {
 /// G1 and G2 share Λ(wi); D is common to value and density.
 Evaluation evaluateBoth(const Bsdf& b, const Coat& coat, Vec3f wi, Vec3f wo, const CoatAlbedo& in) {
   const Vec3f h = normalize(wi + wo);
-  const float d = ggxD(h.z, b.alpha) / (4.f * wi.z);
+  const float d = ggxD(h, b.alpha) / (4.f * wi.z);
   const float lambdaIn = ggxLambda(wi.z, b.alpha), lambdaOut = ggxLambda(wo.z, b.alpha);
   const float c = schlick(dot(wi, h));
   const Rgb fresnel = b.f0 * (1.f - c) + b.f90 * c;
