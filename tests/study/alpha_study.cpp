@@ -146,7 +146,8 @@ void compare(const PhotonScene& scene, const FilterCaster& caster, std::uint64_t
     // beyond() passes over triangles that touch the one that it leaves; equal distances may be told apart either way.
     const auto touches = [&](const Hit& h) {
       const double far = 4 * static_cast<double>(std::max(h.clearance, answer.clearance));
-      return answered && std::abs(dot(answer.position - h.position, Vec3d(ray.start.direction))) < far;
+      return answered && h.triangle != answer.triangle &&
+             std::abs(dot(answer.position - h.position, Vec3d(ray.start.direction))) < far;
     };
     const bool tie = std::any_of(passed.begin(), passed.end(), touches) || (met && touches(hit));
     ++(tie ? touching : other);
