@@ -152,20 +152,23 @@ def noise(folder, first, second):
 
 
 def measure(scene, seconds, shares):
-    start = scene.bake(["--photons", "100k"])
-    rate = 100_000 / max(start["cpu"], 1e-3)
-    photons = max(1000, int(rate * seconds))
-    if photons > 200_000:  # a better rate from a longer run
-        photons = int(photons / scene.bake(["--photons", str(photons // 4)])["cpu"] * seconds / 4)
+    photons = 20_000
+    while (cpu := scene.bake(["--photons", str(photons)])["cpu"]) < seconds / 8:
+        photons *= 4
+    photons = int(photons / cpu * seconds)
     references = [luminances(scene.bake(["--photons", str(4 * photons), "--seed", str(seed)])["folder"])
                   for seed in (101, 102)]
     rows = []
     alone = scene.bake(["--photons", str(photons)])
     rows.append(("photons", 0, photons, alone["cpu"], *noise(alone["folder"], *references)))
-    few = ["--direct", "gathered", "--photons", str(photons // 4)]
-    probe = [scene.bake(few + ["--direct-samples", str(n)])["cpu"] for n in (4, 12)]
-    sample = max((probe[1] - probe[0]) / 8, 1e-4)
-    photon = max((probe[0] - 4 * sample) / (photons // 4), 1e-9)
+    # Without photons, so that what their number costs more or less from run to run does not show.
+    direct = ["--direct", "gathered", "--light", "direct", "--direct-samples"]
+    many = 4
+    while (cpu := scene.bake(direct + [str(many)])["cpu"]) < seconds / 8 and many < 16384:
+        many *= 4
+    sample = cpu / many
+    some = max(1000, photons // 4)
+    photon = scene.bake(["--light", "indirect", "--photons", str(some)])["cpu"] / some
     for share in shares:
         samples = max(1, round(share * seconds / sample))
         rest = max(1000, int((seconds - samples * sample) / photon))
