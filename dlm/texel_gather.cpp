@@ -3,124 +3,52 @@
 #include <cmath>
 
 #include "base/float_mode.h"
+#include "dlm/texel_surface.h"
+#include "tracer/optics/cumulative.h"
 
 namespace lucarne {
 namespace {
 
-struct Polygon {
-  std::array<Vec2d, 7> corner;
-  std::size_t count = 0;
-  void add(Vec2d p) { corner[count++] = p; }
-};
-
-double cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
-
-/// The part where sign·(p[axis] − at) ≥ 0 (Sutherland and Hodgman 1974).
-Polygon clip(const Polygon& in, bool yAxis, double at, double sign) {
-  Polygon out;
-  const auto height = [&](Vec2d p) { return sign * ((yAxis ? p.y : p.x) - at); };
-  for (std::size_t i = 0; i < in.count; ++i) {
-    const Vec2d a = in.corner[i], b = in.corner[(i + 1) % in.count];
-    const double ha = height(a), hb = height(b);
-    if (ha >= 0) out.add(a);
-    if ((ha >= 0) != (hb >= 0)) out.add(a + (b - a) * (ha / (ha - hb)));
-  }
-  return out;
+/// The texels of a chart that the kernel about (x, y) reaches.
+TexelTile tileAbout(std::uint32_t chart, const ChartLayout& layout, int x, int y, int radius) {
+  const int left = std::max(0, x - radius), top = std::max(0, y - radius);
+  return {chart, left, top, std::min(layout.width, x + radius + 1) - left,
+          std::min(layout.height, y + radius + 1) - top};
 }
-
-/// A triangle of a piece of surface inside one texel.
-struct Piece {
-  std::uint32_t triangle;
-  std::array<Vec2d, 3> st;
-  double weight;  // k · surface area, local
-};
 
 /// The surface that the kernel about one texel reaches.
 class KernelSurface {
  public:
   KernelSurface(const GatherScene& in, const TallySide& side, int x, int y, const Kernel& kernel)
-      : in_(in),
-        chart_(in.charts.charts[side.chart]),
-        layout_(in.layout.charts[side.chart]),
-        kernel_(kernel),
-        x_(x),
-        y_(y) {
-    for (const std::uint32_t t : chart_.triangles) addTriangle(t);
-    forTexels([&](int u, int v, double k) {
-      const auto at = layout_.firstTexel + static_cast<std::uint64_t>(v) * static_cast<std::uint64_t>(layout_.width) +
-                      static_cast<std::uint64_t>(u);
-      kernelArea_ += k * in_.layout.area[at];
-    });
+      : tile_(tileAbout(side.chart, in.layout.charts[side.chart], x, y, kernel.radius)),
+        surface_(in.scene.scene(), in.charts, in.layout, tile_) {
+    const ChartLayout& layout = in.layout.charts[side.chart];
+    for (int v = tile_.y; v < tile_.y + tile_.height; ++v) {
+      for (int u = tile_.x; u < tile_.x + tile_.width; ++u) {
+        const double k = kernel(u - x) * kernel(v - y);
+        cumulative_.push_back(k * surface_.area(cumulative_.size()));
+        kernelArea_ += k * in.layout.area[layout.firstTexel + static_cast<std::uint64_t>(v * layout.width + u)];
+      }
+    }
+    guide_.resize(cumulative_.size());
+    surfaceSum_ = makeCumulative(cumulative_);
+    makeGuide(cumulative_, guide_);
   }
 
-  bool empty() const { return pieces_.empty() || !(kernelArea_ > 0); }
+  bool empty() const { return !(surfaceSum_ > 0 && kernelArea_ > 0); }
   /// Σ k·surface over Σ k·area: what a sample of E·α is multiplied with.
-  double scale() const { return cumulative_.back() / kernelArea_; }
-
-  struct Place {
-    std::uint32_t triangle;
-    Vec2f b;
-  };
-  Place sample(double pick, Vec2f u) const {
-    const auto at = std::upper_bound(cumulative_.begin(), cumulative_.end(), pick * cumulative_.back());
-    const Piece& p = pieces_[std::min(static_cast<std::size_t>(at - cumulative_.begin()), pieces_.size() - 1)];
-    const Vec2f w = sampleTriangle(u);
-    const Vec2d st =
-        p.st[0] + (p.st[1] - p.st[0]) * static_cast<double>(w.x) + (p.st[2] - p.st[0]) * static_cast<double>(w.y);
-    const std::array<Vec2d, 3> c = corners(p.triangle);
-    const Vec2d e1 = c[1] - c[0], e2 = c[2] - c[0], d = st - c[0];
-    const double inv = 1 / cross2(e1, e2);
-    const double b1 = std::clamp(cross2(d, e2) * inv, 0.0, 1.0), b2 = std::clamp(cross2(e1, d) * inv, 0.0, 1 - b1);
-    return {p.triangle, {static_cast<float>(b1), static_cast<float>(b2)}};
+  double scale() const { return surfaceSum_ / kernelArea_; }
+  TexelPlace sample(double pick, Vec2f u) const {
+    const Choice texel = choose(cumulative_, guide_, pick);
+    return surface_.sample(texel.index, {std::min(static_cast<float>(texel.rest), 1 - 0x1p-24f), u.x, u.y});
   }
 
  private:
-  std::array<Vec2d, 3> corners(std::uint32_t t) const {
-    std::array<Vec2d, 3> st;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2f uv = in_.charts.cornerUv[t][k];
-      st[k] = {uv.x * layout_.texelsPerLocal.x, uv.y * layout_.texelsPerLocal.y};
-    }
-    return st;
-  }
-
-  template <class F>
-  void forTexels(F&& f) const {
-    const int r = kernel_.radius;
-    for (int v = std::max(0, y_ - r); v <= std::min(layout_.height - 1, y_ + r); ++v)
-      for (int u = std::max(0, x_ - r); u <= std::min(layout_.width - 1, x_ + r); ++u)
-        f(u, v, kernel_(u - x_) * kernel_(v - y_));
-  }
-
-  void addTriangle(std::uint32_t t) {
-    const std::array<Vec2d, 3> st = corners(t);
-    const double projected = std::abs(cross2(st[1] - st[0], st[2] - st[0]));
-    if (!(projected > 0)) return;
-    const double surface = length(in_.scene.scene().scaledNormal(t)) / projected;  // local² a texel²
-    Polygon whole;
-    for (const Vec2d& p : st) whole.add(p);
-    forTexels([&](int u, int v, double k) {
-      Polygon p = clip(clip(whole, false, u, 1), false, u + 1, -1);
-      p = clip(clip(p, true, v, 1), true, v + 1, -1);
-      for (std::size_t i = 2; i < p.count; ++i) addPiece(t, {p.corner[0], p.corner[i - 1], p.corner[i]}, k * surface);
-    });
-  }
-
-  void addPiece(std::uint32_t t, const std::array<Vec2d, 3>& st, double weight) {
-    const double w = 0.5 * std::abs(cross2(st[1] - st[0], st[2] - st[0])) * weight;
-    if (!(w > 0)) return;
-    pieces_.push_back({t, st, w});
-    cumulative_.push_back((cumulative_.empty() ? 0 : cumulative_.back()) + w);
-  }
-
-  const GatherScene& in_;
-  const Chart& chart_;
-  const ChartLayout& layout_;
-  const Kernel& kernel_;
-  int x_, y_;
-  double kernelArea_ = 0;
-  std::vector<Piece> pieces_;
-  std::vector<double> cumulative_;
+  TexelTile tile_;
+  TexelSurface surface_;
+  double kernelArea_ = 0, surfaceSum_ = 0;
+  std::vector<double> cumulative_;  // of k · surface, by texel of the tile
+  std::vector<std::uint32_t> guide_;
 };
 
 class Moments {
