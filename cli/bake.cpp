@@ -58,9 +58,8 @@ void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
                  "distance in texels at which the kernel ends: wider is smoother and blurrier")
       ->capture_default_str();
   cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();
-  addChoice<SamplerKind>(cmd, "--sampler", o.sampler,
-                         {{"random", SamplerKind::random}, {"sobol", SamplerKind::sobol}}, "sobol",
-                         "numbers of the photons: sobol (low discrepancy, less noise) or random");
+  addChoice<SamplerKind>(cmd, "--sampler", o.sampler, {{"random", SamplerKind::random}, {"sobol", SamplerKind::sobol}},
+                         "sobol", "numbers of the photons: sobol (low discrepancy, less noise) or random");
   addChoice<LightPart>(cmd, "--light", o.light,
                        {{"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
                        "all", "which light to store: all, direct or indirect");
@@ -108,8 +107,9 @@ void addBake(CLI::App& app, Action& action) {
       ->required();
   addQuality(*cmd, *options, *texts);
   addSkyOptions(*cmd, *options, texts->environment);
-  cmd->add_flag("!--no-guide", options->guidedEmission,
-                "do not aim the light of suns and skies at where a pilot finds it useful (windows)");
+  cmd->add_flag_callback(
+      "--no-guide", [options] { options->guidedEmission = false; },
+      "do not aim the light of suns and skies at where a pilot finds it useful (windows)");
   addPieces(*cmd, *options, *texts);
   addRunning(*cmd, *options, *texts);
   cmd->callback([options, texts, cmd, &action] {
