@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/units.h"
-#include "tracer/transport/photon_tracer.h"
+#include "tracer/transport/photon_hit.h"
 
 namespace lucarne {
 namespace {

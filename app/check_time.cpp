@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/system.h"
 #include "base/units.h"
+#include "tracer/transport/any_sink.h"
 
 namespace lucarne {
 namespace {
@@ -53,7 +54,7 @@ BareSample traceBare(const CheckInput& in) {
   const auto start = std::chrono::steady_clock::now();
   double seconds = 0;
   while (seconds < kBareSeconds) {
-    tracePhotons(in.photonScene, {ledger.photons, ledger.photons + kStep}, in.options.seed, {}, sink, ledger);
+    flyPhotons(in.photonScene, {ledger.photons, ledger.photons + kStep}, in.options.seed, {}, sink, ledger);
     seconds = secondsSince(start);
   }
   const auto n = static_cast<double>(ledger.photons), emitted = sumOf(ledger.emitted);

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/float_mode.h"
-#include "tracer/transport/photon_tracer.h"
+#include "tracer/transport/any_sink.h"
 
 namespace lucarne {
 namespace {
@@ -29,7 +29,7 @@ double secondsOf(const PhotonScene& scene, std::size_t variant, IndexRange photo
   NoSink sink;
   Ledger ledger;
   const double start = threadSeconds();
-  tracePhotons(scene, photons, kSeed, {}, sink, ledger, variant);
+  flyPhotons(scene, photons, kSeed, {}, sink, ledger, variant);
   rays += ledger.rays;
   return threadSeconds() - start;
 }

@@ -16,10 +16,26 @@ if(LUCARNE_SANITIZE)
   target_link_options(lucarne_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# What many files include takes longer to read than the files themselves: it is compiled once for the libraries that
+# use JSON throughout and once for all tests (executables differ from libraries in the kind of their
+# position-independent code). Every file still includes what it uses.
+set(LUCARNE_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory>
+    <optional> <random> <span> <sstream> <string> <vector> <nlohmann/json.hpp>)
+if(LUCARNE_CCACHE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  target_compile_options(lucarne_flags INTERFACE -fpch-preprocess)  # ccache needs it to know what is in there
+endif()
+
+file(WRITE "${PROJECT_BINARY_DIR}/common_headers.cpp.new" "// Holds the compiled headers of the libraries.\n")
+file(COPY_FILE "${PROJECT_BINARY_DIR}/common_headers.cpp.new" "${PROJECT_BINARY_DIR}/common_headers.cpp" ONLY_IF_DIFFERENT)
+add_library(lucarne_common_headers OBJECT "${PROJECT_BINARY_DIR}/common_headers.cpp")
+target_link_libraries(lucarne_common_headers PRIVATE lucarne_flags)
+target_precompile_headers(lucarne_common_headers PRIVATE ${LUCARNE_COMMON_HEADERS})
+
 # lucarne_library(NAME): a static library of every .cpp below the current folder, target lucarne::NAME, headers
-# included as "NAME/file.h" and installed under include/lucarne/NAME. EXCLUDE REGEX leaves sources out.
+# included as "NAME/file.h" and installed under include/lucarne/NAME. EXCLUDE REGEX leaves sources out; PRECOMPILED
+# takes the common headers.
 function(lucarne_library name)
-  cmake_parse_arguments(arg "" "EXCLUDE" "" ${ARGN})
+  cmake_parse_arguments(arg "PRECOMPILED" "EXCLUDE" "" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   if(arg_EXCLUDE)
     list(FILTER sources EXCLUDE REGEX "${arg_EXCLUDE}")
@@ -30,6 +46,9 @@ function(lucarne_library name)
   target_include_directories(lucarne_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lucarne>)
   target_link_libraries(lucarne_${name} PRIVATE $<BUILD_INTERFACE:lucarne_flags>)
+  if(arg_PRECOMPILED)
+    target_precompile_headers(lucarne_${name} REUSE_FROM lucarne_common_headers)
+  endif()
   install(TARGETS lucarne_${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lucarne/${name}
           FILES_MATCHING PATTERN "*.h")
@@ -47,6 +66,11 @@ function(lucarne_test name)
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(test_${name} PRIVATE lucarne_flags ${arg_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE LUCARNE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(TARGET test_base AND NOT name STREQUAL base)
+    target_precompile_headers(test_${name} REUSE_FROM test_base)
+  else()
+    target_precompile_headers(test_${name} PRIVATE ${LUCARNE_COMMON_HEADERS} <gtest/gtest.h> <gmock/gmock.h>)
+  endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 120
                        PROPERTIES TIMEOUT 900 ENVIRONMENT "${arg_ENVIRONMENT}")
 endfunction()

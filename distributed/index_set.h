@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tracer/transport/photon_tracer.h"
+#include "tracer/transport/photon_hit.h"
 
 namespace lucarne {
 

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/float_mode.h"
+#include "tracer/transport/photon_tracer.h"
 
 namespace lucarne {
 namespace {

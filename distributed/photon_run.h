@@ -6,6 +6,9 @@
 
 #include "dlm/deposit.h"
 #include "dlm/tally.h"
+#include "tracer/optics/sampler.h"
+#include "tracer/transport/ledger.h"
+#include "tracer/transport/photon_scene.h"
 
 namespace lucarne {
 

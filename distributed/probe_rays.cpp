@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "base/float_mode.h"
-#include "tracer/transport/photon_tracer.h"
+#include "tracer/transport/any_sink.h"
 
 namespace lucarne {
 namespace {
@@ -30,7 +30,7 @@ Hash128 probeRays(const PhotonScene& scene) {
   TraceLimits limits;
   limits.depth = kDepth;
   for (std::uint64_t i = 0; i < kSegments && ledger.rays < kSegments; ++i)
-    tracePhotons(scene, {i, i + 1}, kSeed, limits, sink, ledger);
+    flyPhotons(scene, {i, i + 1}, kSeed, limits, sink, ledger);
   return sink.hasher.finish();
 }
 

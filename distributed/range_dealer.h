@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tracer/transport/photon_tracer.h"
+#include "tracer/transport/photon_hit.h"
 
 namespace lucarne {
 

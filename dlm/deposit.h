@@ -11,7 +11,8 @@
 
 #include "base/huge_allocator.h"
 #include "dlm/tally.h"
-#include "tracer/transport/photon_tracer.h"
+#include "tracer/transport/photon_hit.h"
+#include "tracer/transport/shading_normal.h"
 
 namespace lucarne {
 

@@ -6,6 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 preset=${1:-release}
 shift || true
+export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros}  # without, nothing with precompiled headers is cached
 werror=OFF
 case "${LUCARNE_WERROR:-0}" in 1 | ON | on | yes) werror=ON ;; esac
 cmake --preset "$preset" -DLUCARNE_WERROR="$werror" "$@"

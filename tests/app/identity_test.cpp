@@ -79,7 +79,7 @@ TEST(Identity, ChartTotalsOfTheTalliesAreTheIncidentFluxExactly) {
   DepositSink<false> inner(map, plan.tallies, plan.directions, LightPart::all, tallies);
   SummingSink sink{inner, std::vector<FluxSum>(2 * scene.triangles.size())};
   Ledger ledger;
-  tracePhotons(photonScene, {0, 50'000}, 3, {}, sink, ledger);
+  flyPhotons(photonScene, {0, 50'000}, 3, {}, sink, ledger);
   inner.flush();
   std::vector<FluxSum> bySide(plan.tallies.sides.size());
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)

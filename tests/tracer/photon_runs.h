@@ -10,7 +10,7 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 #include "tests/tracer/mean.h"
-#include "tracer/transport/photon_tracer.h"
+#include "tracer/transport/any_sink.h"
 
 namespace lucarne::test {
 
@@ -44,7 +44,7 @@ template <class Sink>
 Ledger fly(const PhotonScene& scene, std::uint64_t photons, Sink& sink, const PhotonSeed& seed = 1,
            const TraceLimits& limits = {}) {
   Ledger ledger;
-  tracePhotons(scene, {0, photons}, seed, limits, sink, ledger);
+  flyPhotons(scene, {0, photons}, seed, limits, sink, ledger);
   return ledger;
 }
 

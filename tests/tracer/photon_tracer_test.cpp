@@ -6,6 +6,7 @@
 
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
+#include "tracer/transport/any_sink.h"
 
 namespace lucarne {
 namespace {
@@ -44,7 +45,7 @@ Ledger traceAll(const Scene& scene, std::uint64_t photons, TraceLimits limits = 
   const PhotonScene photonScene(scene);
   Ledger ledger;
   NoSink sink;
-  tracePhotons(photonScene, {0, photons}, 1, limits, sink, ledger);
+  flyPhotons(photonScene, {0, photons}, 1, limits, sink, ledger);
   return ledger;
 }
 
@@ -81,7 +82,7 @@ TEST(PhotonTracer, APhotonIsAFunctionOfItsIndexAlone) {
   const auto run = [&](IndexRange r) {
     Ledger ledger;
     RecordingSink sink;
-    tracePhotons(photonScene, r, 5, {}, sink, ledger);
+    flyPhotons(photonScene, r, 5, {}, sink, ledger);
     return sink.numbers;
   };
   std::vector<float> pieces = run({1ull << 40, (1ull << 40) + 7});

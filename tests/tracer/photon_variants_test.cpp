@@ -110,7 +110,7 @@ struct Flight {
 
 Flight fly(const PhotonScene& scene, std::size_t variant, SamplerKind kind) {
   Flight flight;
-  tracePhotons(scene, {100, 3100}, PhotonSeed(5, kind), {}, flight.record, flight.ledger, variant);
+  flyPhotons(scene, {100, 3100}, PhotonSeed(5, kind), {}, flight.record, flight.ledger, variant);
   return flight;
 }
 

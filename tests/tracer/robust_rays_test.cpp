@@ -65,7 +65,7 @@ TEST(RobustRays, NoPhotonLeavesAClosedMesh) {
     Ledger l;
     constexpr std::uint64_t kBatch = 10'000;
     for (std::uint64_t first = 0; static_cast<double>(l.rays) < raysEach; first += kBatch)
-      tracePhotons(photons, {first, first + kBatch}, 31, {}, sink, l);
+      flyPhotons(photons, {first, first + kBatch}, 31, {}, sink, l);
     test::expectBalance(l);
     EXPECT_TRUE(l.escaped == FluxSum{}) << s.name << ": " << test::share(l.escaped, l) * static_cast<double>(l.photons)
                                         << " photons of " << l.photons << ", " << l.rays << " rays";
