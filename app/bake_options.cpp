@@ -39,7 +39,12 @@ void checkSettings(const BakeOptions& o) {
   if (!(o.kernel.width >= 0.5 && o.kernel.width <= 16)) throw UsageError("--kernel-width must be 0.5 to 16 texels");
 }
 
+void checkFormat(const DlmFormat& format) {
+  if (!(format.kMax >= 1 && format.kMax <= 1e6)) throw UsageError("--kmax must be 1 to 1e6");
+}
+
 void checkMachine(const BakeOptions& o) {
+  checkFormat(o.format);
   if (o.threads < 0 || o.threads > 1024) throw UsageError("--threads must be 0 (all) to 1024");
   // Embree passes over names that it does not know.
   constexpr std::array<std::string_view, 6> kSets = {"", "sse2", "sse4.2", "avx", "avx2", "avx512"};

@@ -61,6 +61,7 @@ struct BakeOptions {
 void check(const BakeOptions& options);
 /// Only those that decide what is baked, not where to.
 void checkSettings(const BakeOptions& options);
+void checkFormat(const DlmFormat& format);
 /// Only those that decide how this machine works.
 void checkMachine(const BakeOptions& options);
 

@@ -31,7 +31,7 @@ nlohmann::json settingsToJson(const BakeOptions& o, const BakePlan& plan) {
   settings["photons"] = o.photons;
   if (gathersDirect(o)) settings["direct_samples"] = o.directSamples;
   settings["texels_per_metre_used"] = plan.layout.texelsPerMetre;
-  settings["format"] = o.format.directional == ChannelType::half ? "half" : "float";
+  settings.update(formatSettings(o.format));
   return settings;
 }
 
@@ -51,6 +51,12 @@ std::uint64_t storedMapBytes(const LightMaps& maps) {
 double perSecond(std::uint64_t count, double seconds) { return seconds > 0 ? static_cast<double>(count) / seconds : 0; }
 
 }  // namespace
+
+nlohmann::json formatSettings(const DlmFormat& format) {
+  nlohmann::json settings = {{"format", nameOf(format.directional)}};
+  if (format.directional == MapFormat::ldr8) settings["k_max"] = format.kMax;
+  return settings;
+}
 
 std::string sceneName(const BakeOptions& options) { return options.scene ? options.scene->filename().string() : kBuiltinSceneName; }
 
@@ -83,6 +89,8 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["ranks"] = in.options.ranks;
   if (in.baked == nullptr) return report;
   report["map_bytes"] = storedMapBytes(in.baked->maps);
+  if (in.options.format.directional == MapFormat::ldr8)
+    report["cut_flux"] = ldrScales(in.baked->maps, in.options.format.kMax).cutFlux;
   report["estimated_relative_error"] = estimatedRelativeError(in.baked->maps, in.plan.layout);
   return report;
 }

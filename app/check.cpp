@@ -21,7 +21,7 @@ nlohmann::json settingsOf(const BakeOptions& o) {
           {"texels_per_metre", o.texelsPerMetre},
           {"texel_budget", o.texelBudget},
           {"keep_all_directions", o.keepAllDirections},
-          {"format", o.format.directional == ChannelType::half ? "half" : "float"}};
+          {"format", nameOf(o.format.directional)}};
 }
 
 nlohmann::json sectionsOf(const CheckInput& in) {

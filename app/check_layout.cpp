@@ -71,19 +71,19 @@ void warnOfLayout(const CheckInput& in, const TinyCharts& tiny, CheckWarnings& w
                      " of all surface): if they matter, raise --density" + (layout.thinned ? " and --texels" : ""));
 }
 
-/// Texels of a page take 20 bytes (r, g, b, photons, error) a side in the irradiance and three numbers a direction in
+/// Texels of a page take 20 bytes (r, g, b, photons, error) a side in the irradiance and some a direction in
 /// the directional maps, each with a gutter of one texel. Empty space of pages is left out: it compresses to little.
 std::uint64_t dlmBytes(const CheckInput& in) {
   constexpr std::uint64_t kLayerBytes = 4096, kSideBytes = 200,
                           kMapBytes = 16;  // of headers; of entries in the manifest
-  const std::uint64_t number = in.options.format.directional == ChannelType::half ? 2 : 4;
+  const auto mapTexel = static_cast<std::uint64_t>(bytesPerTexel(in.options.format.directional));
   const std::uint64_t atlasCoordinates = 3 * 2 * sizeof(float) * in.scene().triangles.size();
   const std::uint64_t layers = 5 + static_cast<std::uint64_t>(in.options.directions);
   std::uint64_t bytes = in.glbBytes + atlasCoordinates + kLayerBytes * layers;
   for (const TallySide& side : in.plan.tallies.sides) {
     const std::uint64_t maps = in.plan.tallies.membersOf(side).members.size();
     const auto width = static_cast<std::uint64_t>(side.width + 2), height = static_cast<std::uint64_t>(side.height + 2);
-    bytes += width * height * (20 + 3 * number * maps) + kSideBytes + kMapBytes * maps;
+    bytes += width * height * (20 + mapTexel * maps) + kSideBytes + kMapBytes * maps;
   }
   return bytes;
 }

@@ -43,9 +43,19 @@ void finishSky(BakeOptions& o, const std::string& environment) {
 
 void addMachineOptions(CLI::App& cmd, BakeOptions& o) {
   cmd.add_option("--threads", o.threads, "0: all; the result does not depend on it")->capture_default_str();
-  addChoice<ChannelType>(cmd, "--format", o.format.directional,
-                         {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
-                         "numbers of the directional maps on disk: half or float");
+  addFormatOptions(cmd, o.format);
+}
+
+void addFormatOptions(CLI::App& cmd, DlmFormat& format) {
+  addChoice<MapFormat>(cmd, "--format", format.directional,
+                       {{"half", MapFormat::half},
+                        {"float", MapFormat::float32},
+                        {"rgb9e5", MapFormat::rgb9e5},
+                        {"ldr8", MapFormat::ldr8}},
+                       "half", "numbers of the directional maps on disk: half, float, rgb9e5 or ldr8");
+  cmd.add_option("--kmax", format.kMax,
+                 "of ldr8: light above so many times the mean of its surface is cut; less is finer in the dark")
+      ->capture_default_str();
 }
 
 }  // namespace lucarne

@@ -23,7 +23,9 @@ void addSkyOptions(CLI::App& cmd, BakeOptions& o, std::string& environment);
 /// After parsing.
 void finishSky(BakeOptions& o, const std::string& environment);
 
-/// --threads and --format.
+/// --threads, --format and --kmax.
 void addMachineOptions(CLI::App& cmd, BakeOptions& o);
+/// --format and --kmax.
+void addFormatOptions(CLI::App& cmd, DlmFormat& format);
 
 }  // namespace lucarne

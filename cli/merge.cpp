@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/units.h"
 #include "cli/choices.h"
+#include "cli/layout_options.h"
 #include "cli/commands.h"
 
 namespace lucarne {
@@ -23,9 +24,7 @@ void addOptions(CLI::App& cmd, MergeOptions& o) {
       cmd, "--kernel", o.kernel,
       {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
       "as baked", "reconstruction kernel: pyramid, box or epanechnikov");
-  addChoice<ChannelType>(cmd, "--format", o.format.directional,
-                         {{"half", ChannelType::half}, {"float", ChannelType::float32}}, "half",
-                         "numbers of the directional maps on disk: half or float");
+  addFormatOptions(cmd, o.format);
   cmd.add_option("--report", o.report, "write what happened to a JSON file");
   cmd.add_flag("--quiet", o.quiet, "print errors only");
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/image_file.h"
+#include "dlm/texel_codes.h"
 
 namespace lucarne {
 
@@ -43,6 +44,12 @@ class LayerFile {
 
   std::array<const std::vector<float>*, 3> rgb(const ExrLayer& layer) const {
     return {&values(layer, "R"), &values(layer, "G"), &values(layer, "B")};
+  }
+  const std::vector<std::uint32_t>& codes(const ExrLayer& layer, const char* channel) const {
+    const ExrChannel* found = layer.find(channel);
+    if (found == nullptr || found->type != ChannelType::uint32)
+      fail("the layer \"" + layer.name + "\" has no channel " + channel + " of whole numbers");
+    return found->uints;
   }
 
  private:
@@ -106,29 +113,54 @@ void checkScale(const LayerFile& file, const ExrLayer& layer, double scale) {
   }
 }
 
+/// The texels of one page in lx.
+class PageReader {
+ public:
+  PageReader(const LayerFile& file, const ExrLayer& layer, const DirectionalPages& pages)
+      : format_(pages.format), scale_(pages.scale) {
+    if (isCoded(format_)) {
+      codes_ = &file.codes(layer, codeChannel(format_));
+    } else {
+      rgb_ = file.rgb(layer);
+    }
+  }
+  Rgb at(std::size_t pixel, float mapScale) const {
+    if (format_ == MapFormat::ldr8) return unpackLdr8((*codes_)[pixel], mapScale);
+    const Rgb v = format_ == MapFormat::rgb9e5 ? unpackRgb9e5((*codes_)[pixel])
+                                               : Rgb{(*rgb_[0])[pixel], (*rgb_[1])[pixel], (*rgb_[2])[pixel]};
+    return Rgb(Rgbd(v) * scale_);
+  }
+
+ private:
+  MapFormat format_;
+  double scale_;
+  std::array<const std::vector<float>*, 3> rgb_{};
+  const std::vector<std::uint32_t>* codes_ = nullptr;
+};
+
 void readDirectional(const std::filesystem::path& path, const ManifestContents& contents, LightMaps& maps) {
   const DirectionalPages& pages = contents.pages.directional;
   const LayerFile file(path);
-  std::vector<std::array<const std::vector<float>*, 3>> layers;
+  std::vector<PageReader> layers;
   for (const std::string& name : pages.layers) {
     const ExrLayer& layer = file.layer(name, pages.width, pages.height);
     checkScale(file, layer, pages.scale);
-    layers.push_back(file.rgb(layer));
+    layers.emplace_back(file, layer, pages);
   }
   maps.directional.resize(contents.directionalCount);
   const std::int64_t pageTexels = std::int64_t{pages.width} * pages.height;
-  std::size_t k = 0;
+  std::size_t k = 0, stored = 0;
   for (const SideMaps& side : maps.sides) {
     for (const SideDirection& direction : side.directions) {
       const std::int64_t place = pages.places[k++];
       if (place == DirectionalPages::kNotStored) continue;
-      const auto& rgb = layers[static_cast<std::size_t>(place / pageTexels)];
+      const PageReader& page = layers[static_cast<std::size_t>(place / pageTexels)];
+      const float mapScale = pages.mapScales.empty() ? 1.f : pages.mapScales[stored];
+      ++stored;
       const int x = static_cast<int>(place % pages.width), y = static_cast<int>(place / pages.width % pages.height);
       forEachTexel(x, y, side.width, side.height, pages.width, [&](std::size_t texel, std::size_t pixel) {
         Rgb& value = maps.directional[direction.first + texel];
-        for (std::size_t c = 0; c < 3; ++c) {
-          value[static_cast<int>(c)] = static_cast<float>((*rgb[c])[pixel] * pages.scale);
-        }
+        value = page.at(pixel, mapScale);
         if (!isFinite(value)) file.fail("its values times the scale of the manifest are not finite");
       });
     }

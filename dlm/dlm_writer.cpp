@@ -53,11 +53,12 @@ PageLayout writeImages(const std::filesystem::path& folder, const LightMaps& map
     pages.irradianceLayers = namesOf(layers);
   }
   pages.directional = packDirectional(maps);
-  if (format.directional == ChannelType::half) pages.directional.scale = directionalScale(maps);
-  if (!pages.directional.layers.empty()) {
-    writeExr(folder / dlm_file::kDirectional, directionalLayers(maps, pages.directional, format.directional),
-             format.compression);
-  }
+  pages.directional.format = format.directional;
+  const bool bounded = format.directional == MapFormat::half || format.directional == MapFormat::rgb9e5;
+  if (bounded) pages.directional.scale = directionalScale(maps);
+  if (format.directional == MapFormat::ldr8) pages.directional.mapScales = ldrScales(maps, format.kMax).scales;
+  if (!pages.directional.layers.empty())
+    writeExr(folder / dlm_file::kDirectional, directionalLayers(maps, pages.directional), format.compression);
   return pages;
 }
 
@@ -66,7 +67,6 @@ PageLayout writeImages(const std::filesystem::path& folder, const LightMaps& map
 void writeDlm(const std::filesystem::path& folder, const Scene& scene, const AtlasUv& uv, const LightMaps& maps,
               const nlohmann::json& provenance, const DlmFormat& format) {
   LUCARNE_CHECK_EQ(provenance.is_object(), true);
-  LUCARNE_CHECK_EQ(format.directional == ChannelType::uint32, false);
   checkMaps(maps);
   writeFolderAtomically(folder, holdsLightMaps, [&](const std::filesystem::path& aside) {
     writeFileAtomically(aside / dlm_file::kScene, writeSceneGlb(scene, uv));

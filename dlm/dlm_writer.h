@@ -6,14 +6,16 @@
 
 #include "base/image_file.h"
 #include "dlm/light_maps.h"
+#include "dlm/map_format.h"
 #include "tracer/scene/gltf_writer.h"
 #include "tracer/scene/scene.h"
 
 namespace lucarne {
 
 struct DlmFormat {
-  ChannelType directional = ChannelType::half;  // half or float32; the irradiance is always float32
+  MapFormat directional = MapFormat::half;  // the irradiance is always float32
   ExrCompression compression = ExrCompression::rle;
+  double kMax = 32;  // of ldr8, see ldrScales()
 };
 
 /// Written aside and exchanged whole; what is at `folder` is replaced only if it is such a folder itself

@@ -138,38 +138,4 @@ double directionalScale(const LightMaps& maps) {
   return std::ldexp(1.0, exponent - 15);
 }
 
-// Every stored map with its gutter of one texel, which repeats the border.
-std::vector<ExrLayer> directionalLayers(const LightMaps& maps, const DirectionalPages& pages, ChannelType type) {
-  std::vector<ExrLayer> layers;
-  for (const std::string& name : pages.layers) {
-    layers.push_back(layer(name, pages.width, pages.height, {kRgb[0], kRgb[1], kRgb[2]}, type));
-    layers.back().attributes["units"] = "lx / directional_scale";
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", pages.scale);
-    layers.back().attributes["directional_scale"] = text;
-  }
-  const double perScale = 1 / pages.scale;
-  std::size_t k = 0;
-  for (const SideMaps& side : maps.sides) {
-    for (const SideDirection& direction : side.directions) {
-      const std::int64_t place = pages.places[k++];
-      if (place == DirectionalPages::kNotStored) continue;
-      ExrLayer& page = layers[static_cast<std::size_t>(place / (std::int64_t{pages.width} * pages.height))];
-      const int left = static_cast<int>(place % pages.width),
-                top = static_cast<int>(place / pages.width % pages.height);
-      for (int y = std::max(-1, -top); y <= std::min(side.height, pages.height - 1 - top); ++y) {
-        for (int x = std::max(-1, -left); x <= std::min(side.width, pages.width - 1 - left); ++x) {
-          const int tx = std::clamp(x, 0, side.width - 1), ty = std::clamp(y, 0, side.height - 1);
-          const Rgb& value = maps.directional[direction.first + static_cast<std::size_t>(ty * side.width + tx)];
-          const std::size_t pixel = pixelAt(page, left + x, top + y);
-          for (int c = 0; c < 3; ++c) {
-            page.channels[static_cast<std::size_t>(c)].floats[pixel] = static_cast<float>(value[c] * perScale);
-          }
-        }
-      }
-    }
-  }
-  return layers;
-}
-
 }  // namespace lucarne

@@ -16,8 +16,8 @@ std::vector<ExrLayer> irradianceLayers(const LightMaps& maps);
 /// Packs the stored directional maps, those of one ψ together, and tells where each goes; scale is left 1.
 DirectionalPages packDirectional(const LightMaps& maps);
 
-/// Divides by pages.scale; `type` is half or float32.
-std::vector<ExrLayer> directionalLayers(const LightMaps& maps, const DirectionalPages& pages, ChannelType type);
+/// In pages.format, divided by its scales.
+std::vector<ExrLayer> directionalLayers(const LightMaps& maps, const DirectionalPages& pages);
 
 /// The power of two that brings the largest value into [2^14, 2^15) when divided by it: half's whole range below is
 /// then there for the small ones. 1 when all is zero.

@@ -65,10 +65,13 @@ json describeSides(const std::vector<SideMaps>& sides, const std::vector<std::in
 
 json describeDirectional(const DirectionalPages& pages) {
   if (pages.layers.empty()) return nullptr;
-  return {{"file", dlm_file::kDirectional},
-          {"size", {pages.width, pages.height}},
-          {"scale", pages.scale},
-          {"layers", pages.layers}};
+  json result = {{"file", dlm_file::kDirectional},
+                 {"size", {pages.width, pages.height}},
+                 {"format", nameOf(pages.format)},
+                 {"scale", pages.scale},
+                 {"layers", pages.layers}};
+  if (pages.format == MapFormat::ldr8) result["map_scales"] = pages.mapScales;
+  return result;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dlm/light_maps.h"
+#include "dlm/map_format.h"
 #include "tracer/scene/scene.h"
 
 namespace lucarne {
@@ -29,6 +30,8 @@ struct DirectionalPages {
   // Of every member of every side, in order: x + width · (y + height · layer), or kNotStored.
   std::vector<std::int64_t> places;
   double scale = 1;  // lx = value in the file · scale, a power of two
+  MapFormat format = MapFormat::half;
+  std::vector<float> mapScales;  // of ldr8: of every stored map, in order; see texel_codes.h
 };
 
 struct PageLayout {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include "base/image_file.h"
@@ -202,6 +203,23 @@ void checkSidesOfCharts(const Place& file, const LightMaps& maps) {
   }
 }
 
+/// Manifests of before there was a choice name none: the channels then say what they are.
+MapFormat formatOf(const Json& directional, const Place& place) {
+  const std::string name = textOf(directional, "format", "half", place);
+  for (const MapFormat f : {MapFormat::half, MapFormat::float32, MapFormat::rgb9e5, MapFormat::ldr8})
+    if (name == nameOf(f)) return f;
+  place.in("format").fail("is one that this program does not know");
+}
+
+std::vector<float> mapScales(const Json& directional, const Place& place) {
+  std::vector<float> scales;
+  for (const double v : reals(directional, "map_scales", kAnyCount, place)) {
+    scales.push_back(static_cast<float>(v));
+    if (!(scales.back() >= 0 && std::isfinite(scales.back()))) place.in("map_scales", scales.size() - 1).fail("is negative or too large");
+  }
+  return scales;
+}
+
 void readPages(const Json& manifest, const Place& file, ManifestContents& contents) {
   const Json& irradiance = section(manifest, "irradiance", file);
   const auto size = integers(irradiance, "size", 2, 0, kLargestPage, file.in("irradiance"));
@@ -220,6 +238,8 @@ void readPages(const Json& manifest, const Place& file, ManifestContents& conten
   pages.height = static_cast<int>(pageSize[1]);
   pages.layers = names(directional, "layers", place);
   pages.scale = numberOf(directional, "scale", 1, place);
+  pages.format = formatOf(directional, place);
+  if (pages.format == MapFormat::ldr8) pages.mapScales = mapScales(directional, place);
   int exponent = 0;
   if (!(pages.scale > 0) || std::frexp(pages.scale, &exponent) != 0.5) place.in("scale").fail("is not a power of two");
   if (static_cast<std::uint64_t>(pageSize[0] * pageSize[1]) >
@@ -248,6 +268,10 @@ void placeTexels(const Place& file, ManifestContents& contents) {
       direction.first = std::exchange(directional, directional + side.texelCount());
     }
   }
+  const auto stored = static_cast<std::size_t>(
+      std::count_if(pages.places.begin(), pages.places.end(), [](std::int64_t p) { return p != DirectionalPages::kNotStored; }));
+  if (pages.format == MapFormat::ldr8 && pages.mapScales.size() != stored)
+    file.in("directional").in("map_scales").fail("has " + std::to_string(pages.mapScales.size()) + " elements, not " + std::to_string(stored));
   contents.texelCount = texels;
   contents.directionalCount = directional;
 }

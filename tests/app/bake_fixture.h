@@ -61,7 +61,7 @@ class ProbedBake {
   static Dlm roundTrip(const BakedScene& b, const std::string& name) {
     const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / (name + ".dlm");
     DlmFormat format;
-    format.directional = ChannelType::float32;
+    format.directional = MapFormat::float32;
     writeDlm(folder, b.scene, b.baked.uv, b.baked.maps, nlohmann::json::object(), format);
     Dlm dlm = readDlm(folder);
     std::filesystem::remove_all(folder);

@@ -53,7 +53,7 @@ TEST(DlmFile, FloatRoundTripIsExact) {
   const TempFolder folder;
   const BakedScene scene = smallBakedScene();
   for (const ExrCompression compression : {ExrCompression::none, ExrCompression::rle, ExrCompression::zips}) {
-    scene.write(folder / "room.dlm", {ChannelType::float32, compression});
+    scene.write(folder / "room.dlm", {MapFormat::float32, compression});
     const Dlm dlm = readDlm(folder / "room.dlm");
     expectSameStructure(scene.maps(), dlm.maps);
     expectSameIrradiance(scene.maps(), dlm.maps);
@@ -162,7 +162,7 @@ TEST(DlmFile, LayersAreNamedBySideAndDirection) {
 TEST(DlmFile, DirectionalMapsHaveAGutterOfTheirBorder) {
   const TempFolder folder;
   const BakedScene scene = smallBakedScene();
-  scene.write(folder / "room.dlm", {ChannelType::float32, ExrCompression::none});
+  scene.write(folder / "room.dlm", {MapFormat::float32, ExrCompression::none});
   const std::vector<ExrLayer> layers = readExr(folder / "room.dlm" / "directional.exr");
   const nlohmann::json manifest = readManifest(folder / "room.dlm");
   const int width = layers[0].width;

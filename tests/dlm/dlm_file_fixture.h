@@ -120,7 +120,7 @@ class BakedScene {
 
   /// What reading it again gives, by way of a folder.
   Dlm reread(const std::filesystem::path& folder) const {
-    write(folder, {ChannelType::float32, ExrCompression::none});
+    write(folder, {MapFormat::float32, ExrCompression::none});
     return readDlm(folder);
   }
 

@@ -16,7 +16,7 @@ constexpr const char* kFiles[] = {"manifest.json", "scene.glb", "irradiance.exr"
 
 class HostileDlm : public ::testing::Test {
  protected:
-  HostileDlm() { smallBakedScene().write(path_, {ChannelType::float32, ExrCompression::none}); }
+  HostileDlm() { smallBakedScene().write(path_, {MapFormat::float32, ExrCompression::none}); }
 
   void expectRefused(const std::string& fileAtFault) {
     const std::string text = errorOf(ExitCode::badInput, [&] { readDlm(path_); });
