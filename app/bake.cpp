@@ -42,6 +42,7 @@ void warnAbout(const PhotonScene& scene, const BakePlan& plan, const BakeOptions
     logWarning("this processor has no avx2: rays are traced with " + scene.rayCaster().isa() +
                ", and may differ in rounding from those of other machines");
   if (scene.emitters().empty()) logWarning(sceneName(options) + " has no light: the light maps will be black");
+  for (const std::string& why : plan.charts.uv1Refused) logWarning(why + ": charts are grown instead");
   if (plan.layout.thinned)
     logWarning("density lowered from " + formatNumber(options.texelsPerMetre) + " to " +
                formatNumber(plan.layout.texelsPerMetre) + " texels/m by the budget of " +

@@ -14,6 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<const char*, 3> kShapes = {"pyramid", "box", "epanechnikov"};
+constexpr std::array<const char*, 2> kChartModes = {"auto", "grow"};
 constexpr std::array<const char*, 2> kSamplers = {"random", "sobol"};
 constexpr std::array<const char*, 2> kDirectModes = {"photons", "gathered"};
 constexpr std::array<const char*, 3> kLightParts = {"all", "direct", "indirect"};
@@ -48,6 +49,7 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
   o.directions = static_cast<int>(s.at("directions").integer(1, 4096));
   o.texelsPerMetre = s.at("texels_per_metre").number();
   o.texelBudget = s.at("texel_budget").count();
+  o.charts = choiceAt<ChartMode>(s.at("charts"), kChartModes);
   o.keepAllDirections = s.at("keep_all_directions").flag();
   o.seed = s.at("seed").count();
   o.sampler = choiceAt<SamplerKind>(s.at("sampler"), kSamplers);
@@ -75,6 +77,7 @@ json traceSettings(const BakeOptions& o) {
   json settings = {{"directions", o.directions},
           {"texels_per_metre", o.texelsPerMetre},
           {"texel_budget", o.texelBudget},
+          {"charts", kChartModes[static_cast<std::size_t>(o.charts)]},
           {"keep_all_directions", o.keepAllDirections},
           {"direction_filter", "nearest"},
           {"seed", o.seed},
@@ -117,6 +120,7 @@ std::string bakeCommand(const PartHeader& header, const std::string& output, con
   };
   add(o.photons != standard.photons, "--photons " + formatExactCount(o.photons));
   add(o.directions != standard.directions, "--directions " + std::to_string(o.directions));
+  add(o.charts != standard.charts, "--charts grow");
   add(o.texelsPerMetre != standard.texelsPerMetre, "--density " + shortest(o.texelsPerMetre));
   add(o.texelBudget != standard.texelBudget, "--texels " + formatExactCount(o.texelBudget));
   add(o.keepAllDirections, "--keep-all-directions");

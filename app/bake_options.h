@@ -24,6 +24,9 @@ struct PartNumber {
 /// Who brings light that comes straight from lamps and sky: photons, or samples at every texel (direct_gather.h).
 enum class DirectMode : std::uint8_t { photons, gathered };
 
+/// Where charts come from: TEXCOORD_1 where it can be used and grown elsewhere, or all grown.
+enum class ChartMode : std::uint8_t { automatic, grow };
+
 struct BakeOptions {
   std::optional<std::filesystem::path> scene;  // none: the built-in room
   std::filesystem::path output;                // NAME.dlm, or NAME.part
@@ -33,6 +36,7 @@ struct BakeOptions {
   int directions = 14;
   double texelsPerMetre = 16;
   std::uint64_t texelBudget = 1'000'000;
+  ChartMode charts = ChartMode::automatic;
   bool keepAllDirections = false;
   KernelOptions kernel;
   std::uint64_t seed = 0;

@@ -78,6 +78,8 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["rays_per_second"] = perSecond(ledger.rays, seconds);
   report["stored_hits"] = ledger.storedHits;
   report["charts"] = in.plan.charts.charts.size();
+  report["uv1_charts"] = in.plan.charts.uv1Charts;
+  report["uv1_refused"] = in.plan.charts.uv1Refused;
   report["directions"] = in.options.directions;
   report["texels"] = in.plan.tallies.texels;
   report["tally_bytes"] = tallyBytes(in.plan, in.options);

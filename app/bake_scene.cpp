@@ -18,7 +18,9 @@ int threadCount(const BakeOptions& options) {
 }
 
 BakePlan makePlan(const Scene& scene, const BakeOptions& options, std::uint64_t texelLimit) {
-  ChartSet charts = growCharts(scene);
+  ChartOptions chartOptions;
+  chartOptions.useUv1 = options.charts == ChartMode::automatic;
+  ChartSet charts = growCharts(scene, chartOptions);
   TexelLayout layout = layOutTexels(scene, charts, {options.texelsPerMetre, options.texelBudget, texelLimit});
   DirectionSet directions(options.directions);
   TallyLayout tallies = planTallies(scene, charts, layout, directions, options.keepAllDirections);

@@ -133,7 +133,9 @@ nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
   const auto directional = [&](const TallySide& s) { return !plan.tallies.membersOf(s).members.empty(); };
   const TinyCharts tiny = tinyCharts(in.scene(), plan);
   warnOfLayout(in, tiny, warnings);
+  for (const std::string& why : plan.charts.uv1Refused) warnings.add("uv1", why + ": charts are grown instead");
   return {{"charts", plan.charts.charts.size()},
+          {"uv1_charts", plan.charts.uv1Charts},
           {"chart_sides", plan.tallies.sides.size()},
           {"sides_with_directions", std::count_if(plan.tallies.sides.begin(), plan.tallies.sides.end(), directional)},
           {"directions", in.options.directions},

@@ -13,6 +13,8 @@ void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts) {
       ->capture_default_str();
   cmd.add_option("--density", o.texelsPerMetre, "texels per metre: finer shadows, more noise for the same photons")
       ->capture_default_str();
+  addChoice<ChartMode>(cmd, "--charts", o.charts, {{"auto", ChartMode::automatic}, {"grow", ChartMode::grow}}, "auto",
+                       "auto: the scene's own unwrapping (TEXCOORD_1) where it can be used; grow: none of it");
   cmd.add_option("--texels", texts.texels, "texel budget; a scene that needs more is baked at a lower density")
       ->capture_default_str();
   addChoice<DirectMode>(cmd, "--direct", o.direct,

@@ -92,6 +92,12 @@ void planeAxes(Vec3d normal, Vec3d& axisU, Vec3d& axisV) {
   axisV = cross(normal, axisU);
 }
 
+float clampedInside(double x, double size) {
+  float f = static_cast<float>(std::clamp(x, 0.0, size));
+  while (static_cast<double>(f) > size) f = std::nextafterf(f, 0.f);
+  return f;
+}
+
 std::vector<Vec2d> convexHull(std::vector<Vec2d> points) {
   std::sort(points.begin(), points.end(), [](Vec2d a, Vec2d b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   points.erase(std::unique(points.begin(), points.end()), points.end());

@@ -20,6 +20,9 @@ Vec3d snappedNormal(Vec3d v);
 /// Axes of a plane: exact for axis-aligned normals, else axisU is level (perpendicular to y).
 void planeAxes(Vec3d normal, Vec3d& axisU, Vec3d& axisV);
 
+/// `x` as a float within [0, size].
+float clampedInside(double x, double size);
+
 /// Convex hull, counter-clockwise, without collinear points; of a set on a line its two ends.
 std::vector<Vec2d> convexHull(std::vector<Vec2d> points);
 

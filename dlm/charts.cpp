@@ -5,6 +5,7 @@
 #include "dlm/chart_growth.h"
 #include "dlm/chart_merge.h"
 #include "dlm/chart_plane.h"
+#include "dlm/chart_uv1.h"
 #include "dlm/half_edge_mesh.h"
 
 namespace lucarne {
@@ -39,12 +40,6 @@ std::vector<GrownChart> partition(const ChartFaces& faces, double cosMaxAngle, d
     if (grower.isFree(seed)) charts.push_back(grower.take(seed));
   }
   return mergeCharts(faces, std::move(charts), cosMaxAngle, overlaps);
-}
-
-float clampedInside(double x, double size) {
-  float f = static_cast<float>(std::clamp(x, 0.0, size));
-  while (static_cast<double>(f) > size) f = std::nextafterf(f, 0.f);
-  return f;
 }
 
 std::vector<Vec3d> pointsOf(const HalfEdgeMesh& mesh, const std::vector<std::uint32_t>& triangles) {
@@ -86,6 +81,23 @@ void orderBySmallestTriangle(ChartSet& set) {
   }
 }
 
+/// Charts of the scene's own unwrapping; their triangles are taken out of the mesh.
+void takeUv1Charts(const Scene& scene, HalfEdgeMesh& mesh, double minSize, ChartSet& set) {
+  Uv1Islands found = findUv1Islands(scene, mesh);
+  set.uv1Refused = std::move(found.refused);
+  set.uv1Charts = found.islands.size();
+  for (const auto& island : found.islands) {
+    set.charts.push_back(uv1Chart(scene, island, minSize, set));
+    for (const std::uint32_t t : island) {
+      mesh.vertices[t].fill(kNone);
+      for (EdgeLink& link : mesh.links[t]) {
+        if (link.triangle != kNone) mesh.links[link.triangle][link.edge] = {};
+        link = {};
+      }
+    }
+  }
+}
+
 }  // namespace
 
 ChartSet growCharts(const Scene& scene, const ChartOptions& options) {
@@ -94,11 +106,13 @@ ChartSet growCharts(const Scene& scene, const ChartOptions& options) {
   HalfEdgeMesh mesh = buildHalfEdgeMesh(scene, tolerance);
   cutCreases(scene, mesh, options.creaseAngleDegrees);
 
-  const ChartFaces faces(mesh);
-  const double cosMaxAngle = cosDegrees(std::clamp(options.maxAngleDegrees, 0.1, 80.0));
   ChartSet set;
   set.chartOfTriangle.assign(scene.triangles.size(), kNone);
   set.cornerUv.resize(scene.triangles.size());
+  if (options.useUv1) takeUv1Charts(scene, mesh, 1e-9 * extent, set);
+
+  const ChartFaces faces(mesh);
+  const double cosMaxAngle = cosDegrees(std::clamp(options.maxAngleDegrees, 0.1, 80.0));
   for (GrownChart& chart : partition(faces, cosMaxAngle, extent, tolerance)) {
     set.charts.push_back(finishChart(scene, mesh, std::move(chart), extent, set));
   }

@@ -1,4 +1,5 @@
-// Charts: connected sets of triangles of one material, one-to-one in their own texture rectangle.
+// Charts: connected sets of triangles of one material, one-to-one in their own texture rectangle. Either the scene's own
+// unwrapping (chart_uv1.h), or grown:
 //
 // Charts grow across the edges of one material while (a) every triangle's normal stays within an angle of the chart's
 // normal and (b) the orthogonal projection onto the chart's plane stays one-to-one. Adjacency is by position, not
@@ -10,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "tracer/scene/scene.h"
@@ -20,6 +22,7 @@ struct ChartOptions {
   double maxAngleDegrees = 40;     // largest angle between a triangle's normal and the chart's, at most 80
   double weldTolerance = 1e-6;     // relative to the scene's extent (about one local unit)
   double creaseAngleDegrees = 20;  // flat-shaded triangles that meet at more than this are not joined
+  bool useUv1 = false;             // where the scene has an unwrapping of its own that can be used (chart_uv1.h)
 };
 
 struct Chart {
@@ -36,6 +39,8 @@ struct ChartSet {
   std::vector<Chart> charts;
   std::vector<std::uint32_t> chartOfTriangle;  // kNone for degenerate triangles
   std::vector<std::array<Vec2f, 3>> cornerUv;  // per triangle: place in its chart, local units, inside [0,size]
+  std::size_t uv1Charts = 0;                   // of the scene's own unwrapping
+  std::vector<std::string> uv1Refused;         // meshes whose unwrapping cannot be used, and why
 };
 
 /// Deterministic: depends on the scene's triangles and options alone. Charts are ordered by their smallest triangle.
