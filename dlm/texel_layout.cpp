@@ -13,42 +13,67 @@ constexpr double kMaxSide = 16000;  // texels along a chart: what one page of a 
 
 double texelsAlong(double size, double texelsPerLocal) { return std::max(1.0, std::ceil(size * texelsPerLocal)); }
 
-/// In floating point, so that no scene overflows it.
-double texelsAt(const ChartSet& set, double texelsPerLocal) {
-  double sum = 0;
-  for (const Chart& c : set.charts)
-    sum += texelsAlong(c.size.x, texelsPerLocal) * texelsAlong(c.size.y, texelsPerLocal);
-  return sum;
+/// Charts, and for each how much denser than the others it is to be.
+struct WeightedCharts {
+  const ChartSet& set;
+  std::vector<double> weight;
+  Vec2d texels(std::size_t chart, double texelsPerLocal) const {
+    const Vec2d size = set.charts[chart].size;
+    const double d = texelsPerLocal * weight[chart];
+    return {texelsAlong(size.x, d), texelsAlong(size.y, d)};
+  }
+};
+
+/// Of a chart that several instances share, the largest density that any of them asks for.
+WeightedCharts weigh(const Scene& scene, const ChartSet& set, double texelsPerMetre) {
+  WeightedCharts charts{set, std::vector<double>(set.charts.size(), 0)};
+  for (const PrimitiveInstance& instance : scene.instances) {
+    if (!(instance.texelsPerMetre > 0)) continue;
+    for (std::uint32_t t = instance.firstTriangle; t < instance.firstTriangle + instance.triangleCount; ++t) {
+      if (set.chartOfTriangle[t] == kNone) continue;
+      double& weight = charts.weight[set.chartOfTriangle[t]];
+      weight = std::max(weight, instance.texelsPerMetre / texelsPerMetre);
+    }
+  }
+  for (double& weight : charts.weight)
+    if (weight == 0) weight = 1;
+  return charts;
 }
 
-bool fits(const ChartSet& set, double texelsPerLocal, double budget) {
-  for (const Chart& c : set.charts) {
-    if (texelsAlong(std::max(c.size.x, c.size.y), texelsPerLocal) > kMaxSide) return false;
+/// In floating point, so that no scene overflows it.
+bool fits(const WeightedCharts& charts, double texelsPerLocal, double budget) {
+  double sum = 0;
+  for (std::size_t c = 0; c < charts.weight.size(); ++c) {
+    const Vec2d texels = charts.texels(c, texelsPerLocal);
+    if (std::max(texels.x, texels.y) > kMaxSide) return false;
+    sum += texels.x * texels.y;
   }
-  return texelsAt(set, texelsPerLocal) <= budget;
+  return sum <= budget;
 }
 
 /// The largest density up to `wanted` that fits, to one part in 2^20.
-double fittingDensity(const ChartSet& set, double wanted, double budget) {
-  if (fits(set, wanted, budget)) return wanted;
+double fittingDensity(const WeightedCharts& charts, double wanted, double budget) {
+  if (fits(charts, wanted, budget)) return wanted;
   double low = wanted / 2, high = wanted;
-  while (!fits(set, low, budget)) {  // ends: a density low enough gives each chart one texel
+  while (!fits(charts, low, budget)) {  // ends: a density low enough gives each chart one texel
     high = low;
     low /= 2;
   }
   for (int i = 0; i < 20; ++i) {
     const double middle = 0.5 * (low + high);
-    (fits(set, middle, budget) ? low : high) = middle;
+    (fits(charts, middle, budget) ? low : high) = middle;
   }
   return low;
 }
 
-ChartLayout chartLayout(const Chart& chart, double texelsPerLocal, std::uint64_t firstTexel) {
+ChartLayout chartLayout(const WeightedCharts& charts, std::size_t chart, double texelsPerLocal,
+                        std::uint64_t firstTexel) {
+  const Vec2d texels = charts.texels(chart, texelsPerLocal), size = charts.set.charts[chart].size;
   ChartLayout layout;
-  layout.width = static_cast<int>(texelsAlong(chart.size.x, texelsPerLocal));
-  layout.height = static_cast<int>(texelsAlong(chart.size.y, texelsPerLocal));
+  layout.width = static_cast<int>(texels.x);
+  layout.height = static_cast<int>(texels.y);
   layout.firstTexel = firstTexel;
-  layout.texelsPerLocal = {layout.width / chart.size.x, layout.height / chart.size.y};
+  layout.texelsPerLocal = {layout.width / size.x, layout.height / size.y};
   return layout;
 }
 
@@ -98,12 +123,13 @@ TexelLayout layOutTexels(const Scene& scene, const ChartSet& set, const LayoutOp
   }
   TexelLayout layout;
   const double wanted = std::min(options.texelsPerMetre * scene.frame.scale, 1e30);  // infinity cannot be halved
-  const double used = fittingDensity(set, wanted, static_cast<double>(options.texelBudget));
+  const WeightedCharts charts = weigh(scene, set, options.texelsPerMetre);
+  const double used = fittingDensity(charts, wanted, static_cast<double>(options.texelBudget));
   layout.thinned = used < wanted;
   layout.texelsPerMetre = layout.thinned ? used / scene.frame.scale : options.texelsPerMetre;
   layout.charts.reserve(set.charts.size());
-  for (const Chart& chart : set.charts) {
-    layout.charts.push_back(chartLayout(chart, used, layout.texelCount));
+  for (std::size_t c = 0; c < set.charts.size(); ++c) {
+    layout.charts.push_back(chartLayout(charts, c, used, layout.texelCount));
     layout.texelCount += layout.charts.back().texelCount();
   }
   if (layout.texelCount > options.texelLimit) {

@@ -2,6 +2,7 @@
 //
 // A chart of size (su, sv) local units gets width = max(1, ceil(su · d)) by height = max(1, ceil(sv · d)) texels, d the
 // density, and its texels are stretched so that they fit exactly: texel coordinates are uv · (width/su, height/sv).
+// Instances that ask for a density of their own (PrimitiveInstance::texelsPerMetre) get it in place of d.
 // The density is lowered, too, until no chart is longer than 16000 texels, so that it fits into a page.
 // A rectangle is then covered by whole texels only. A texel owns [x, x+1) × [y, y+1), the last ones also the far edge.
 #pragma once

@@ -205,5 +205,23 @@ TEST(TexelCoverage, OfALineOrAPointIsNothing) {
   EXPECT_TRUE(texels.of({Vec2d{5, 0}, Vec2d{5, 5}, Vec2d{5, 3}}).empty());
 }
 
+TEST(TexelLayout, ChartsThatAskForADensityOfTheirOwnGetItAlsoUnderABudget) {
+  SceneBuilder builder;
+  builder.addQuad({0, 0, 2}, {2, 0, 2}, {2, 0, 0}, {0, 0, 0});
+  builder.addQuad({5, 0, 2}, {7, 0, 2}, {7, 0, 0}, {5, 0, 0});
+  Scene scene = builder.build();
+  scene.instances = {{0, 0, 0, 0, 2, 0, 4, 0}, {1, 1, 0, 2, 2, 4, 4, 40}};
+  const ChartSet set = growCharts(scene);
+  ASSERT_EQ(set.charts.size(), 2u);
+  const TexelLayout layout = layOutTexels(scene, set, {10, 1'000'000});
+  EXPECT_EQ(layout.charts[0].width, 20);
+  EXPECT_EQ(layout.charts[1].width, 80);
+  expectAreasAddUp(set, layout);
+  const TexelLayout thin = layOutTexels(scene, set, {10, 1'000});
+  EXPECT_TRUE(thin.thinned);
+  EXPECT_LE(thin.texelCount, 1000u);
+  EXPECT_NEAR(static_cast<double>(thin.charts[1].width) / thin.charts[0].width, 4, 0.6);
+}
+
 }  // namespace
 }  // namespace lucarne::test

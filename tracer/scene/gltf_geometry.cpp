@@ -103,6 +103,7 @@ void InstanceReader::read(std::uint32_t material) {
   if (sharedVertex_.size() < positions_->count()) sharedVertex_.resize(positions_->count(), kNone);
   PrimitiveInstance instance{};
   instance.node = use_.node;
+  instance.texelsPerMetre = node_.texelsPerMetre;
   instance.mesh = use_.mesh;
   instance.primitive = use_.primitive;
   instance.firstTriangle = static_cast<std::uint32_t>(scene_.triangles.size());

@@ -103,6 +103,21 @@ void checkNoLoop(const Json& nodes, const std::vector<std::uint32_t>& parents, c
   }
 }
 
+/// Of the node's extras: "lucarne.texels_per_metre": N, or "lucarne": {"texels_per_metre": N}. `inherited` where it has
+/// none. Extras may be anything; only a density that is none is an error.
+double densityOf(const Json& node, double inherited, const Place& place) {
+  const Json* extras = findMember(node, "extras");
+  if (extras == nullptr || !extras->is_object()) return inherited;
+  const Json* value = findMember(*extras, "lucarne.texels_per_metre");
+  if (const Json* ours = findMember(*extras, "lucarne"); value == nullptr && ours != nullptr && ours->is_object())
+    value = findMember(*ours, "texels_per_metre");
+  if (value == nullptr) return inherited;
+  const double density = value->is_number() ? value->get<double>() : 0;
+  if (!(density > 0 && density <= 1e9))
+    place.in("extras").in("lucarne.texels_per_metre").fail("is not a number of texels above 0");
+  return density;
+}
+
 std::vector<std::uint32_t> rootsOf(const Json& json, const std::vector<std::uint32_t>& parents, const Place& file) {
   std::vector<std::uint32_t> roots;
   const Json* scenes = findMember(json, "scenes");
@@ -133,7 +148,10 @@ void validateNodeGraph(const Json& json, const Place& file) {
   const Json& nodes = nodesOf(json);
   const std::vector<std::uint32_t> parents = parentsOf(nodes, file);
   checkNoLoop(nodes, parents, file);
-  for (std::uint32_t i = 0; i < nodes.size(); ++i) localTransform(nodes[i], file.in("nodes", i));
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    localTransform(nodes[i], file.in("nodes", i));
+    densityOf(nodes[i], 0, file.in("nodes", i));
+  }
   const Json& scenes = objectArray(json, "scenes", file);
   indexOf(json, "scene", scenes.size(), file);
   std::vector<std::size_t> listed(nodes.size(), 0);  // 1 + the last scene that lists the node
@@ -154,7 +172,7 @@ std::vector<WorldNode> flattenNodes(const Json& json, const Place& file) {
   std::vector<WorldNode> flat;
   std::vector<WorldNode> stack;  // node, and the transforms of its parent
   const std::vector<std::uint32_t> roots = rootsOf(json, parentsOf(nodes, file), file);
-  for (auto it = roots.rbegin(); it != roots.rend(); ++it) stack.push_back({*it, {}, {}, false});
+  for (auto it = roots.rbegin(); it != roots.rend(); ++it) stack.push_back({*it, {}, {}, false, 0});
   while (!stack.empty()) {
     WorldNode current = stack.back();
     stack.pop_back();
@@ -164,10 +182,11 @@ std::vector<WorldNode> flattenNodes(const Json& json, const Place& file) {
     current.rotation = current.rotation * local.rotation;
     if (!isFinite(current.world)) place.fail("has a world transform that is not finite");
     current.mirrors = balanced(current.world).determinant() < 0;
+    current.texelsPerMetre = densityOf(nodes[current.node], current.texelsPerMetre, place);
     flat.push_back(current);
     const Json& children = childrenOf(nodes[current.node], place);
     for (auto it = children.rbegin(); it != children.rend(); ++it) {
-      stack.push_back({asIndex(*it, nodes.size(), place), current.world, current.rotation, false});
+      stack.push_back({asIndex(*it, nodes.size(), place), current.world, current.rotation, false, current.texelsPerMetre});
     }
   }
   return flat;

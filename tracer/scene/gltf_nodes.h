@@ -18,6 +18,7 @@ struct WorldNode {
   Affine world;
   Affine rotation;       // the same without any scale: what is left of the orientation where a scale is zero
   bool mirrors = false;  // negative determinant: the winding of triangles turns round
+  double texelsPerMetre = 0;  // extras "lucarne.texels_per_metre" of the node or the nearest ancestor that has it; 0: none
 };
 
 /// The nodes of the default scene (else scene 0, else all roots) in depth-first order, parents first.

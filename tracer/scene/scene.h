@@ -113,6 +113,7 @@ struct PrimitiveInstance {
   std::uint32_t node, mesh, primitive;
   std::uint32_t firstTriangle, triangleCount;
   std::uint32_t firstVertex, vertexCount;
+  double texelsPerMetre = 0;  // density of its light maps where the file asks for one; 0: that of the bake
 };
 
 struct Scene {
