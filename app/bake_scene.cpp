@@ -35,7 +35,7 @@ Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& o
   baked.emittedFlux = header.identity.emittedFlux;
   baked.contentHash = tallies.contentHash();
   baked.maps = resolve({scene, plan.charts, plan.layout, plan.tallies, tallies, options.directions, baked.emittedFlux,
-                        header.ledger.photons, baked.direct.samples.count()},
+                        header.ledger.photons, baked.direct.samples.count(), baked.direct.samples.countOdd()},
                        options.kernel);
   baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);
   return baked;

@@ -29,7 +29,7 @@ std::string toText(const ProbeAnswer& a) {
   std::ostringstream text;
   if (!a.onSurface) return "no surface here";
   text << "chart " << a.chart << (a.back ? " back" : " front") << "  irradiance " << a.irradiance.x << " " << a.irradiance.y << " "
-       << a.irradiance.z << " lx  error " << 100 * a.relativeError << " %  photons " << a.photons << "  directions "
+       << a.irradiance.z << " lx  error " << a.standardError << " lx, " << 100 * a.relativeError << " %  photons " << a.photons << "  directions "
        << a.directions.size();
   return text.str();
 }

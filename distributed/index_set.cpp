@@ -37,6 +37,12 @@ std::uint64_t IndexSet::count() const {
   return sum;
 }
 
+std::uint64_t IndexSet::countOdd() const {
+  std::uint64_t sum = 0;
+  for (const IndexRange& r : ranges_) sum += r.end / 2 - r.begin / 2;
+  return sum;
+}
+
 bool IndexSet::contains(IndexRange range) const { return missing(range).empty(); }
 
 IndexSet IndexSet::common(const IndexSet& other) const {

@@ -22,6 +22,8 @@ class IndexSet {
   const std::vector<IndexRange>& ranges() const { return ranges_; }
   bool empty() const { return ranges_.empty(); }
   std::uint64_t count() const;
+  /// Of the odd ones among them.
+  std::uint64_t countOdd() const;
   /// One past the largest index; 0 when empty.
   std::uint64_t end() const { return ranges_.empty() ? 0 : ranges_.back().end; }
   bool contains(IndexRange range) const;

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kFormat = "lucarne-part";
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 
 Hash128 hashAt(const JsonView& view) {
   const std::optional<Hash128> hash = Hash128::parse(view.text());
@@ -90,7 +90,7 @@ json tallySet(const PartHeader& h, const std::string& name, const IndexSet& rang
           {"fixed_point_bits", kFixedPointBits},
           {"layers", {name + ".light", name + ".statistics"}},
           {"light_channels", {"r", "g", "b"}},
-          {"statistics_channels", {"count", "m2"}},
+          {"statistics_channels", {"count", "m2", "odd"}},
           {"light_entries", h.lightEntries},
           {"texels", h.texels}};
 }

@@ -22,7 +22,7 @@ int rowsFor(std::uint64_t pixels, const std::string& file) {
 
 /// Where channel c of a pixel stands in the alphabetical order of its row: its high word, then its low word.
 constexpr std::array<std::size_t, 3> kLightPlaces = {2, 1, 0};  // r, g, b stand as b, g, r
-constexpr std::array<std::size_t, 3> kStatisticsPlaces = {0, 1, 0};
+constexpr std::array<std::size_t, 3> kStatisticsPlaces = {0, 1, 2};
 
 constexpr std::size_t placeOf(PartLayer layer, std::size_t channel) {
   return isLight(layer) ? kLightPlaces[channel] : kStatisticsPlaces[channel];
@@ -63,7 +63,9 @@ ExrRows partRows(const PartHeader& header, const std::string& file) {
   const auto addSet = [&](const std::string& name) {
     layers.push_back(
         {name + ".light", {"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}, rowsFor(header.lightEntries, file)});
-    layers.push_back({name + ".statistics", {"count.hi", "count.lo", "m2.hi", "m2.lo"}, rowsFor(header.texels, file)});
+    layers.push_back({name + ".statistics",
+                      {"count.hi", "count.lo", "m2.hi", "m2.lo", "odd.hi", "odd.lo"},
+                      rowsFor(header.texels, file)});
   };
   addSet("photons");
   if (header.direct) addSet("direct");
@@ -72,21 +74,13 @@ ExrRows partRows(const PartHeader& header, const std::string& file) {
 }
 
 void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<std::uint32_t> row) {
-  const std::size_t pixels = values.size() / channelsOf(layer);
-  if (isLight(layer)) {
-    split<3>(layer, values.data(), pixels, row.data());
-  } else {
-    split<2>(layer, values.data(), pixels, row.data());
-  }
+  const std::size_t pixels = values.size() / kPartChannels;
+  split<kPartChannels>(layer, values.data(), pixels, row.data());
 }
 
 void joinRow(PartLayer layer, std::span<const std::uint32_t> row, std::span<std::int64_t> values) {
-  const std::size_t pixels = values.size() / channelsOf(layer);
-  if (isLight(layer)) {
-    join<3>(layer, row.data(), pixels, values.data());
-  } else {
-    join<2>(layer, row.data(), pixels, values.data());
-  }
+  const std::size_t pixels = values.size() / kPartChannels;
+  join<kPartChannels>(layer, row.data(), pixels, values.data());
 }
 
 std::string partSeal(const Hash128& hash) { return kSealMark + hash.hex().substr(0, 16); }

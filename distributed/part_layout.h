@@ -23,8 +23,8 @@ ExrRows partRows(const PartHeader& header, const std::string& file);
 void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<std::uint32_t> row);
 void joinRow(PartLayer layer, std::span<const std::uint32_t> row, std::span<std::int64_t> values);
 
-/// 64-bit values in a pixel.
-constexpr std::size_t channelsOf(PartLayer layer) { return isLight(layer) ? 3 : 2; }
+/// 64-bit values in a pixel of light or statistics.
+inline constexpr std::size_t kPartChannels = 3;
 
 /// Behind the image: what reading stops at, and the hash of all bytes before it.
 inline constexpr std::size_t kSealBytes = 24;

@@ -98,17 +98,16 @@ class PartStream {
   }
 
   void tallies(PartLayer layer, std::uint64_t pixels) {
-    const std::uint64_t channels = channelsOf(layer);
     std::vector<std::uint32_t> words(rows_.rowBytes(static_cast<std::size_t>(layer)) / 4);
-    std::vector<std::int64_t> values(kPartWidth * channels);
+    std::vector<std::int64_t> values(kPartWidth * kPartChannels);
     forRows(layer, [&](std::uint64_t y, std::span<const std::byte> row) {
       std::memcpy(words.data(), row.data(), row.size());
       const std::uint64_t first = y * kPartWidth;
       const auto here =
-          std::span(values).first(channels * std::min<std::uint64_t>(kPartWidth, pixels - std::min(pixels, first)));
+          std::span(values).first(kPartChannels * std::min<std::uint64_t>(kPartWidth, pixels - std::min(pixels, first)));
       joinRow(layer, words, here);
       content_.add(std::as_bytes(here));
-      if (sink_.tallies) sink_.tallies(layer, first * channels, here);
+      if (sink_.tallies) sink_.tallies(layer, first * kPartChannels, here);
     });
   }
 
@@ -155,7 +154,7 @@ PartHeader PartReader::readHeader() const {
 PartReader::PartReader(const std::filesystem::path& path) : file_(path), header_(readHeader()), rows_(0, {}, "", "") {
   // Before anything of that size is made: a layer takes at least its bytes in the file.
   const std::uint64_t size = file_.size();
-  if (header_.sceneBytes > size || header_.lightEntries > size / 24 || header_.texels > size / 16) {
+  if (header_.sceneBytes > size || header_.lightEntries > size / 24 || header_.texels > size / 24) {
     throw PartError(path.string() + " is cut short: it has " + std::to_string(size) +
                     " bytes, fewer than its tallies take");
   }

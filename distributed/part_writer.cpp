@@ -40,7 +40,7 @@ void writeScene(const ExrRows& rows, std::span<const std::uint8_t> scene, Sealed
 
 void writeTallies(const ExrRows& rows, PartLayer layer, std::span<const std::int64_t> values, SealedFile& file) {
   const auto index = static_cast<std::size_t>(layer);
-  const std::size_t perRow = kPartWidth * channelsOf(layer);
+  const std::size_t perRow = kPartWidth * kPartChannels;
   std::vector<std::uint32_t> row(rows.rowBytes(index) / 4);
   for (int y = 0; y < rows.layers()[index].height; ++y) {
     const auto left = values.subspan(std::min(values.size(), static_cast<std::size_t>(y) * perRow));

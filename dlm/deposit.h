@@ -89,7 +89,8 @@ class DepositSink {
         path_[j].texel = kTaken;
       }
       count(statistics_ + path_[i].texel * kStatisticsChannels,
-            roundUnits(std::min(sum * sum, kLargestSquare), path_[i].word));
+            roundUnits(std::min(sum * sum, kLargestSquare), path_[i].word),
+            odd_ ? roundUnits(sum, path_[i].word >> 8) : 0);
     }
     path_.clear();
     sums_.incident += incident_;
@@ -123,7 +124,7 @@ class DepositSink {
   };
   struct PendingCount {
     std::int64_t* at = nullptr;
-    std::int64_t m2 = 0;
+    std::int64_t m2 = 0, odd = 0;
   };
   struct PathHit {
     std::uint64_t texel;
@@ -163,18 +164,20 @@ class DepositSink {
     slot.units = {r, g, b};
     incident_.units = {incident_.units[0] + r, incident_.units[1] + g, incident_.units[2] + b};
     ++sums_.storedHits;
+    odd_ = h.odd;
     path_.push_back({texel, luminance(value), h.words[3]});
   }
-  void count(std::int64_t* at, std::int64_t m2) {
+  void count(std::int64_t* at, std::int64_t m2, std::int64_t odd) {
     PendingCount& slot = counts_[countHead_];
     countHead_ = (countHead_ + 1) % counts_.size();
     apply(slot);
-    slot = {at, m2};
+    slot = {at, m2, odd};
   }
   static void apply(const PendingCount& p) {
     if (p.at == nullptr) return;
-    add(p.at, 1);
-    add(p.at + 1, p.m2);
+    add(p.at + kCount, 1);
+    add(p.at + kSquares, p.m2);
+    if (p.odd != 0) add(p.at + kOdd, p.odd);
   }
   static void apply(const Pending& p) {
     if (p.at == nullptr) return;
@@ -189,6 +192,7 @@ class DepositSink {
   std::array<Pending, 16> ring_{};
   std::array<PendingCount, 16> counts_{};
   std::size_t head_ = 0, countHead_ = 0;
+  bool odd_ = false;  // the photon in flight
   std::vector<PathHit> path_;
   FixedRgb incident_;  // of the photon in flight; 64 bits hold any single path
   DepositSums sums_;

@@ -81,8 +81,9 @@ class DirectGather::Texel {
     float sum = 0;
     for (std::size_t i = 0; i < light.count; ++i)
       sum += add(light.pieces[i], alpha * share / gather_.unit_, bits, counts);
-    statistics_[0] += 1;
-    statistics_[1] += roundUnits(std::min(sum * sum, kLargestSquare), bits.next());
+    statistics_[kCount] += 1;
+    statistics_[kSquares] += roundUnits(std::min(sum * sum, kLargestSquare), bits.next());
+    if (s % 2 == 1) statistics_[kOdd] += roundUnits(sum, bits.next());
   }
 
  private:

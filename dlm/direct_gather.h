@@ -6,7 +6,8 @@
 // (path_tracer.h). Light that comes through glass or from a mirror is not direct: photons bring it.
 //
 // Tallies of this set:   light       Σ over samples of E·α·surface/area, in units of 2^-24 of directUnit()
-//                        statistics  samples that found light, and Σ (luminance of a sample)², units of 2^-24
+//                        statistics  samples that found light, Σ (luminance of a sample)², and Σ luminance of those
+//                                    of odd index, units of 2^-24
 // so that the mean over samples times area(t') is what resolve.h calls tally(t').
 #pragma once
 

@@ -76,7 +76,10 @@ void readIrradianceSides(const LayerFile& file, bool back, LightMaps& maps) {
   const ExrLayer& statistics = file.layer(name + dlm_file::kStatistics, width, height);
   const auto rgb = file.rgb(file.layer(name, width, height));
   const std::vector<float>& photons = file.values(statistics, "photons");
-  const std::vector<float>& error = file.values(statistics, "relative_error");
+  const std::vector<float>& relativeError = file.values(statistics, "relative_error");
+  // Files of before it was written have the relative one alone.
+  const std::vector<float>* standardError =
+      statistics.find("standard_error") == nullptr ? nullptr : &file.values(statistics, "standard_error");
   for (const SideMaps& side : maps.sides) {
     if (!side.lit || side.back != back) continue;
     const MapChart& chart = maps.charts[side.chart];
@@ -84,7 +87,9 @@ void readIrradianceSides(const LayerFile& file, bool back, LightMaps& maps) {
       const std::size_t i = side.firstTexel + texel;
       maps.irradiance[i] = {(*rgb[0])[pixel], (*rgb[1])[pixel], (*rgb[2])[pixel]};
       maps.photons[i] = photons[pixel];
-      maps.relativeError[i] = error[pixel];
+      maps.relativeError[i] = relativeError[pixel];
+      maps.standardError[i] =
+          standardError != nullptr ? (*standardError)[pixel] : relativeError[pixel] * luminance(maps.irradiance[i]);
     });
   }
 }
@@ -98,6 +103,7 @@ void readIrradiance(const std::filesystem::path& path, const ManifestContents& c
   maps.irradiance.resize(contents.texelCount);
   maps.photons.resize(contents.texelCount);
   maps.relativeError.resize(contents.texelCount);
+  maps.standardError.resize(contents.texelCount);
   readIrradianceSides(file, false, maps);
   if (hasLitBack(maps)) readIrradianceSides(file, true, maps);
 }

@@ -17,6 +17,7 @@ void checkMaps(const LightMaps& maps) {
   LUCARNE_CHECK_EQ(std::all_of(maps.irradiance.begin(), maps.irradiance.end(), isFinite<float>), true);
   LUCARNE_CHECK_EQ(std::all_of(maps.directional.begin(), maps.directional.end(), isFinite<float>), true);
   LUCARNE_CHECK_EQ(maps.irradiance.size(), maps.relativeError.size());
+  LUCARNE_CHECK_EQ(maps.irradiance.size(), maps.standardError.size());
   LUCARNE_CHECK_EQ(maps.irradiance.size(), maps.photons.size());
   for (std::size_t i = 0; i < maps.sides.size(); ++i) {
     const SideMaps& side = maps.sides[i];

@@ -101,11 +101,12 @@ void addSide(const LightMaps& maps, bool back, std::vector<ExrLayer>& layers) {
   const int width = std::max(1, maps.atlasWidth), height = std::max(1, maps.atlasHeight);  // a scene may have no charts
   ExrLayer light = layer(name, width, height, {kRgb[0], kRgb[1], kRgb[2]}, ChannelType::float32);
   ExrLayer statistics =
-      layer(name + dlm_file::kStatistics, width, height, {"photons", "relative_error"}, ChannelType::float32);
+      layer(name + dlm_file::kStatistics, width, height, {"photons", "relative_error", "standard_error"}, ChannelType::float32);
   forEachTexel(maps, back, light, [&](std::size_t texel, std::size_t pixel) {
     for (int c = 0; c < 3; ++c) light.channels[static_cast<std::size_t>(c)].floats[pixel] = maps.irradiance[texel][c];
     statistics.channels[0].floats[pixel] = maps.photons[texel];
     statistics.channels[1].floats[pixel] = maps.relativeError[texel];
+    statistics.channels[2].floats[pixel] = maps.standardError[texel];
   });
   light.attributes["units"] = "lx";
   layers.push_back(std::move(light));

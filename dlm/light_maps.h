@@ -51,7 +51,8 @@ struct LightMaps {
   // Texels. Values in texels that hold no surface are dilated from their neighbours, so bilinear lookup (clamped to the
   // rectangle) never reads an unwritten one.
   std::vector<Rgb> irradiance;        // lx, [side.firstTexel + y·width + x]
-  std::vector<float> relativeError;   // estimated standard error of E over E (luminance); 0 where dark
+  std::vector<float> standardError;   // estimated, of the luminance of E; lx. See texel_error.h
+  std::vector<float> relativeError;   // the same over E; 0 where dark
   std::vector<float> photons;         // photons that fell into the texel
   std::vector<Rgb> directional;       // lx, B(s,ψ): [direction.first + y·width + x]
 };

@@ -61,6 +61,7 @@ ProbeAnswer Prober::probe(Vec3d position, Vec3d normal) const {
   if (side.lit) {
     const std::size_t texel = side.firstTexel + texelHolding(side, point->st);
     answer.irradiance = Bilinear(side, point->st).of({maps_.irradiance.data() + side.firstTexel, side.texelCount()});
+    answer.standardError = static_cast<double>(maps_.standardError[texel]);
     answer.relativeError = static_cast<double>(maps_.relativeError[texel]);
     answer.photons = static_cast<double>(maps_.photons[texel]);
   }
@@ -96,6 +97,7 @@ nlohmann::json toJson(const ProbeAnswer& answer) {
           {"side", answer.back ? "back" : "front"},
           {"irradiance", triple(answer.irradiance)},
           {"directions", std::move(directions)},
+          {"standard_error", answer.standardError},
           {"estimated_relative_error", answer.relativeError},
           {"photons", answer.photons}};
 }

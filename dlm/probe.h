@@ -26,7 +26,8 @@ struct ProbeAnswer {
   bool back = false;
   Rgbd irradiance{};                       // lx, bilinear between texel centres, clamped to the chart's rectangle
   std::vector<ProbeDirection> directions;  // the members of the side, ψ ascending
-  double relativeError = 0;                // estimated, of the irradiance; of the texel that holds the point
+  double standardError = 0;                // estimated, of the luminance of the irradiance; of the texel that holds the point
+  double relativeError = 0;                // the same over the irradiance of that texel
   double photons = 0;                      // that fell into that texel
 };
 

@@ -5,23 +5,13 @@
 #include <cmath>
 
 #include "dlm/direct_gather.h"
-#include "dlm/side_resolver.h"
-#include "tracer/transport/ledger.h"
+#include "dlm/side_errors.h"
 
 namespace lucarne {
 namespace {
 
 bool anyNonZero(std::span<const std::int64_t> v) {
   return std::any_of(v.begin(), v.end(), [](std::int64_t x) { return x != 0; });
-}
-
-std::span<const std::int64_t> mapUnits(const Tallies& set, const TallySide& side, std::uint64_t rank) {
-  return set.light().subspan((side.firstLight + rank * side.texelCount()) * kLightChannels,
-                             side.texelCount() * kLightChannels);
-}
-
-std::span<const std::int64_t> statisticsOf(const Tallies& set, const TallySide& side) {
-  return set.statistics().subspan(side.firstTexel * kStatisticsChannels, side.texelCount() * kStatisticsChannels);
 }
 
 /// The sets that have anything to say.
@@ -87,86 +77,10 @@ void planMaps(const ResolveInput& in, LightMaps& maps) {
     maps.sides.push_back(std::move(m));
   }
   maps.irradiance.resize(texels);
+  maps.standardError.resize(texels);
   maps.relativeError.resize(texels);
   maps.photons.resize(texels);
   maps.directional.resize(entries);
-}
-
-/// What turns units into lx: those of photons over local area, those of gathered samples by themselves.
-struct Scales {
-  double photons = 0, direct = 0;
-};
-
-/// One side and what its maps are made with.
-struct SideInput {
-  const ResolveInput& in;
-  const TallySide& side;
-  const SideResolver& resolver;
-  Scales scales;
-  std::span<const double> area() const {
-    return {in.layout.area.data() + in.layout.charts[side.chart].firstTexel, side.texelCount()};
-  }
-};
-
-/// Of a sum of N independent photons: Var(Σx) ≈ (Σx² − (Σx)²/N)·N/(N − 1), luminance, lx². One photon tells nothing
-/// about its spread; it is taken for one of many. `irradiance`: of the photons.
-std::vector<double> photonVariances(const SideInput& s, const std::vector<Rgbd>& irradiance) {
-  std::vector<double> squares = s.resolver.filterSquares(statisticsOf(s.in.tallies, s.side), 1);
-  const double unitsToFraction = 1 / static_cast<double>(kFixedPointOne), n = static_cast<double>(s.in.photons);
-  for (std::size_t t = 0; t < squares.size(); ++t) {
-    const double e = luminance(irradiance[t]);
-    // The scale turns units into lx; m2 holds squares of fractions in units, so one factor of 2^24 less.
-    const double square = squares[t] * s.scales.photons * s.scales.photons / unitsToFraction;
-    squares[t] = s.in.photons > 1 ? (square - e * e / n) * (n / (n - 1)) : square;
-  }
-  return squares;
-}
-
-/// Luminance of a texel's samples, all directions together, in units.
-std::vector<double> gatheredUnits(const SideInput& s) {
-  std::vector<double> sums(s.side.texelCount());
-  for (std::uint64_t k = 0; k < s.in.tallyLayout.membersOf(s.side).mapCount(); ++k) {
-    const auto units = mapUnits(*s.in.tallies.direct(), s.side, k);
-    for (std::size_t t = 0; t < sums.size(); ++t) {
-      const std::int64_t* p = units.data() + kLightChannels * t;
-      sums[t] += luminance(Rgbd{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
-    }
-  }
-  return sums;
-}
-
-/// Of a texel's mean over N samples: (Σx²/N − mean²)/(N − 1), luminance, weighted as resolve.h weights the means. lx².
-std::vector<double> directVariances(const SideInput& s) {
-  const auto pairs = statisticsOf(*s.in.tallies.direct(), s.side);
-  const double one = static_cast<double>(kFixedPointOne), n = static_cast<double>(s.in.samples);
-  std::vector<double> terms = gatheredUnits(s);
-  for (std::size_t t = 0; t < terms.size(); ++t) {
-    const double mean = terms[t] / (n * one),
-                 square = static_cast<double>(pairs[kStatisticsChannels * t + 1]) / (n * one);
-    const double variance = s.in.samples > 1 ? std::max(0.0, square - mean * mean) / (n - 1) : square;
-    terms[t] = s.area()[t] * s.area()[t] * variance;
-  }
-  std::vector<double> variances = s.resolver.filterSquares(terms);
-  const double unit = s.scales.direct * n * one;
-  for (double& v : variances) v *= unit * unit;
-  return variances;
-}
-
-void fillStatistics(const SideInput& s, const std::vector<Rgbd>& photonIrradiance, const std::vector<Rgbd>& irradiance,
-                    const SideMaps& out, LightMaps& maps) {
-  std::vector<double> variances(irradiance.size());
-  if (s.in.photons > 0) variances = photonVariances(s, photonIrradiance);
-  if (s.in.samples > 0) {
-    const std::vector<double> direct = directVariances(s);
-    for (std::size_t t = 0; t < variances.size(); ++t) variances[t] = std::max(0.0, variances[t]) + direct[t];
-  }
-  const auto pairs = statisticsOf(s.in.tallies, s.side);
-  for (std::size_t t = 0; t < irradiance.size(); ++t) {
-    const double e = luminance(irradiance[t]);
-    maps.relativeError[out.firstTexel + t] =
-        e > 0 ? static_cast<float>(std::sqrt(std::max(0.0, variances[t])) / e) : 0.f;
-    maps.photons[out.firstTexel + t] = static_cast<float>(pairs[kStatisticsChannels * t]);
-  }
 }
 
 /// Irradiance of one set, lx; its maps by direction are added to `maps`.
@@ -189,14 +103,14 @@ std::vector<Rgbd> addSet(const SideInput& s, bool gathered, const SideMaps& out,
 }
 
 void resolveSide(const ResolveInput& in, const Kernel& kernel, const Scales& scales, std::size_t index,
-                 LightMaps& maps) {
+                 LightMaps& maps, SideErrors& errors) {
   const SideMaps& out = maps.sides[index];
   if (!out.lit) return;
   const TallySide& side = in.tallyLayout.sides[index];
   const std::span<const double> area(in.layout.area.data() + in.layout.charts[side.chart].firstTexel,
                                      side.texelCount());
   const SideResolver resolver(side.width, side.height, area, kernel);
-  const SideInput s{in, side, resolver, scales};
+  const SideInput s{in, side, resolver, kernel, scales};
   const std::vector<Rgbd> photons = in.photons > 0 ? addSet(s, false, out, maps) : std::vector<Rgbd>(side.texelCount());
   std::vector<Rgbd> irradiance = photons;
   if (in.samples > 0) {
@@ -204,7 +118,30 @@ void resolveSide(const ResolveInput& in, const Kernel& kernel, const Scales& sca
     for (std::size_t t = 0; t < irradiance.size(); ++t) irradiance[t] += direct[t];
   }
   for (std::size_t t = 0; t < irradiance.size(); ++t) maps.irradiance[out.firstTexel + t] = Rgb(irradiance[t]);
-  fillStatistics(s, photons, irradiance, out, maps);
+  const auto statistics = statisticsOf(in.tallies, side);
+  for (std::size_t t = 0; t < irradiance.size(); ++t)
+    maps.photons[out.firstTexel + t] = static_cast<float>(statistics[kStatisticsChannels * t + kCount]);
+  errors = sideErrors(s, photons);
+}
+
+/// With the ratios of all sides known.
+void fillErrors(const std::vector<SideErrors>& errors, LightMaps& maps) {
+  ErrorRatio photons, direct;
+  for (const SideErrors& e : errors) {
+    photons += e.photons.ratio;
+    direct += e.direct.ratio;
+  }
+  tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t s) {
+    const SideMaps& side = maps.sides[s];
+    if (!side.lit) return;
+    const std::vector<float> deviations = errors[s].deviations(photons, direct);
+    for (std::size_t t = 0; t < deviations.size(); ++t) {
+      const std::size_t texel = side.firstTexel + t;
+      const float e = luminance(maps.irradiance[texel]);
+      maps.standardError[texel] = deviations[t];
+      maps.relativeError[texel] = e > 0 ? deviations[t] / e : 0.f;
+    }
+  });
 }
 
 }  // namespace
@@ -223,8 +160,10 @@ LightMaps resolve(const ResolveInput& in, const KernelOptions& options) {
   if (in.samples > 0)
     scales.direct = directUnit(in.emittedFlux, in.layout, metres) / static_cast<double>(in.samples) /
                     static_cast<double>(kFixedPointOne);
+  std::vector<SideErrors> errors(maps.sides.size());
   tbb::parallel_for(std::size_t{0}, maps.sides.size(),
-                    [&](std::size_t s) { resolveSide(in, kernel, scales, s, maps); });
+                    [&](std::size_t s) { resolveSide(in, kernel, scales, s, maps, errors[s]); });
+  fillErrors(errors, maps);
   return maps;
 }
 
@@ -233,10 +172,9 @@ double estimatedRelativeError(const LightMaps& maps, const TexelLayout& layout) 
   for (const SideMaps& side : maps.sides) {
     if (!side.lit) continue;
     for (std::uint64_t t = 0; t < side.texelCount(); ++t) {
-      const double f = layout.area[layout.charts[side.chart].firstTexel + t] *
-                       static_cast<double>(luminance(maps.irradiance[side.firstTexel + t]));
-      flux += f;
-      error += f * static_cast<double>(maps.relativeError[side.firstTexel + t]);
+      const double area = layout.area[layout.charts[side.chart].firstTexel + t];
+      flux += area * static_cast<double>(luminance(maps.irradiance[side.firstTexel + t]));
+      error += area * static_cast<double>(maps.standardError[side.firstTexel + t]);
     }
   }
   return flux > 0 ? error / flux : 0;

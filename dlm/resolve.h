@@ -6,7 +6,7 @@
 // every texel up to the chart's edge. Texels without surface but within the kernel of some are extrapolated by the same formula;
 // the others copy the nearest that has a value. The physical scale enters here, once, in double: one tally unit is
 // 2^-24 · emitted flux / photons. Where direct light was gathered (direct_gather.h), its set has tally(t') = area(t') ·
-// mean over its samples, and the two sets are added; so are the variances.
+// mean over its samples, and the two sets are added; so are the variances (texel_error.h).
 #pragma once
 
 #include "dlm/kernel.h"
@@ -25,6 +25,7 @@ struct ResolveInput {
   double emittedFlux;     // lm: EmitterTable::totalFlux()
   std::uint64_t photons;  // traced; 0 gives black maps
   std::uint64_t samples = 0;  // of the second set of the tallies; 0: nothing of it counts
+  std::uint64_t oddSamples = 0;  // those of odd index among them
 };
 
 /// Everything of LightMaps but the place in the atlas.

@@ -68,8 +68,8 @@ std::vector<T> SideResolver::filter(int power, F&& term) const {
       if (inverseArea_[t] <= 0) continue;
       T sum{};
       forNeighbours(x, y, [&](std::size_t n, double k) { sum += term(n, k); });
-      values[t] = sum * inverseArea_[t];
-      if (power == 2) values[t] = values[t] * inverseArea_[t];
+      for (int i = 0; i < power; ++i) sum = sum * inverseArea_[t];
+      values[t] = sum;
     }
   }
   spread(values);
@@ -93,10 +93,12 @@ std::vector<Rgbd> SideResolver::filterMeans(std::span<const std::int64_t> means,
   return filter<Rgbd>(1, [&](std::size_t n, double k) { return unitsAt(means, n) * (k * area[n]); });
 }
 
-std::vector<double> SideResolver::filterSquares(std::span<const std::int64_t> pairs, int channel) const {
-  return filter<double>(2, [&](std::size_t n, double k) {
-    return k * k * static_cast<double>(pairs[2 * n + static_cast<std::size_t>(channel)]);
-  });
+std::vector<double> SideResolver::filterValues(std::span<const double> values) const {
+  return filter<double>(1, [&](std::size_t n, double k) { return k * values[n]; });
+}
+
+std::vector<double> SideResolver::sumUnderKernel(std::span<const double> values) const {
+  return filter<double>(0, [&](std::size_t n, double k) { return k > 0 ? values[n] : 0.0; });
 }
 
 std::vector<double> SideResolver::filterSquares(std::span<const double> values) const {

@@ -16,15 +16,17 @@ class SideResolver {
 
   /// Per texel: (Σ k·units(t')) / (Σ k·area(t')) per channel, `units` interleaved [texel][channels].
   std::vector<Rgbd> filterRgb(std::span<const std::int64_t> units) const;
-  /// Per texel: Σ k²·units(t') over the square of Σ k·area(t'), of one channel of interleaved pairs.
-  std::vector<double> filterSquares(std::span<const std::int64_t> pairs, int channel) const;
+  /// Per texel: (Σ k·values(t')) / (Σ k·area(t')).
+  std::vector<double> filterValues(std::span<const double> values) const;
+  /// Per texel: Σ values(t') over the texels that weigh anything.
+  std::vector<double> sumUnderKernel(std::span<const double> values) const;
   /// Per texel: (Σ k·means(t')·area(t')) / (Σ k·area(t')) per channel, `area` as given before.
   std::vector<Rgbd> filterMeans(std::span<const std::int64_t> means, std::span<const double> area) const;
   /// Per texel: Σ k²·values(t') over the square of Σ k·area(t').
   std::vector<double> filterSquares(std::span<const double> values) const;
 
  private:
-  /// Per texel: Σ term(t', k) times `power` times 1 / Σ k·area.
+  /// Per texel: Σ term(t', k) times 1 / Σ k·area, `power` times.
   template <class T, class F>
   std::vector<T> filter(int power, F&& term) const;
   template <class F>

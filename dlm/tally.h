@@ -1,8 +1,9 @@
 // Tallies: where the light of photons is counted. Integers in fixed point, so that sums have no order.
 //
 // Light:      [chart side][ψ][y][x][r, g, b]   Σ beta, in units of 2^-24 of the scene's emitted flux
-// Statistics: [chart side][y][x][count, m2]    photons that fell into the texel, and Σ (luminance of a photon's whole
-//             share of the texel)², per photon, since one path may come back to a texel; units of 2^-24.
+// Statistics: [chart side][y][x][count, m2, odd]  photons that fell into the texel; Σ (luminance of a photon's whole
+//             share of the texel)², per photon, since one path may come back to a texel; and Σ luminance of the
+//             photons of odd index, which says how far the two halves of all photons differ. Units of 2^-24.
 // Canonical order is memory order, light first; content_hash is XXH3-128 over it, little-endian.
 //
 // A second set of the same shape counts direct light where it is gathered (direct_gather.h) instead of brought by
@@ -25,7 +26,9 @@
 
 namespace lucarne {
 
-inline constexpr std::uint64_t kLightChannels = 3, kStatisticsChannels = 2;
+inline constexpr std::uint64_t kLightChannels = 3, kStatisticsChannels = 3;
+/// Channels of the statistics.
+inline constexpr std::uint64_t kCount = 0, kSquares = 1, kOdd = 2;
 
 /// v in fixed point, rounded up with the probability of the fraction, so that small values are kept on average: to
 /// nearest in units of 1/256, then the low 8 bits of `word` are added and 8 bits dropped. The mean is off by at most

@@ -74,6 +74,7 @@ TEST(IndexSet, AgreesWithASetOfNumbers) {
       if (i >= 10 && i < 35 && !inA.contains(i)) gaps.insert(i);
     }
     EXPECT_EQ(a.count(), inA.size());
+    EXPECT_EQ(a.countOdd(), std::count_if(inA.begin(), inA.end(), [](std::uint64_t i) { return i % 2 == 1; }));
     EXPECT_EQ(numbersIn(a.common(b)), both);
     EXPECT_TRUE(a.common(b) == b.common(a));
     EXPECT_EQ(numbersIn(a.missing({10, 35})), gaps);
@@ -104,6 +105,7 @@ TEST(IndexSet, SetsAddUpAndWhatIsMissingCompletesThem) {
   set.add(gaps);
   EXPECT_EQ(pairs(set), (Pairs{{0, kMost}}));
   EXPECT_EQ(set.count(), kMost);
+  EXPECT_EQ(set.countOdd(), kMost / 2);
   EXPECT_TRUE(set.contains({0, kMost}));
   EXPECT_TRUE(set.missing({5, 5}).empty());
 }

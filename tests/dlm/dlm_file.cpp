@@ -40,6 +40,7 @@ void expectSameIrradiance(const LightMaps& a, const LightMaps& b) {
   EXPECT_EQ(a.irradiance, b.irradiance);
   EXPECT_EQ(a.photons, b.photons);
   EXPECT_EQ(a.relativeError, b.relativeError);
+  EXPECT_EQ(a.standardError, b.standardError);
 }
 
 void expectDirectionalWithinHalf(const LightMaps& a, const LightMaps& b) {

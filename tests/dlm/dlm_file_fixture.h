@@ -60,6 +60,7 @@ class BakedScene {
         maps_.irradiance.push_back(value(x, y));
         maps_.photons.push_back(static_cast<float>(maps_.photons.size() % 97));
         maps_.relativeError.push_back(0.01f * static_cast<float>(maps_.relativeError.size() % 13));
+        maps_.standardError.push_back(0.1f * static_cast<float>(maps_.standardError.size() % 11));
       }
     }
     maps_.sides.push_back(side);
@@ -72,6 +73,7 @@ class BakedScene {
     maps_.irradiance.resize(texels);
     maps_.photons.resize(texels);
     maps_.relativeError.resize(texels);
+    maps_.standardError.resize(texels);
     side.firstTexel = 0;
     side.lit = false;
     return side;

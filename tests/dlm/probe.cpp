@@ -133,6 +133,7 @@ TEST_F(FloorProbe, PhotonsAndErrorAreThoseOfTheTexel) {
       const auto texel = static_cast<std::size_t>(y * 8 + x);
       EXPECT_EQ(answer.photons, static_cast<double>(scene_.maps().photons[texel]));
       EXPECT_EQ(answer.relativeError, static_cast<double>(scene_.maps().relativeError[texel]));
+      EXPECT_EQ(answer.standardError, static_cast<double>(scene_.maps().standardError[texel]));
     }
   }
 }

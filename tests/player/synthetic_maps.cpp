@@ -106,6 +106,7 @@ void BakedSceneBuilder::addSide(LightMaps& maps, const ChartPlan& plan, std::uin
     }
     maps.irradiance.insert(maps.irradiance.end(), E.begin(), E.end());
     maps.relativeError.resize(maps.irradiance.size());
+    maps.standardError.resize(maps.irradiance.size());
     maps.photons.resize(maps.irradiance.size());
   }
   maps.sides.push_back(std::move(side));

@@ -10,12 +10,12 @@ namespace lucarne::test {
 
 using Words = std::array<std::uint32_t, 4>;
 
-/// A block of a sampler, as a function of the photon.
+/// A block of a sampler, as a function of the photon's number in its half: those of even or of odd index.
 using Block = std::function<Words(std::uint64_t photon)>;
 
 template <class Sampler>
-Block block(std::uint64_t seed, std::uint32_t event, Stream stream) {
-  return [=](std::uint64_t photon) { return Sampler(seed, photon).words(event, stream); };
+Block block(std::uint64_t seed, std::uint32_t event, Stream stream, bool odd = false) {
+  return [=](std::uint64_t photon) { return Sampler(seed, 2 * photon + odd).words(event, stream); };
 }
 
 inline std::vector<Words> points(const Block& block, std::uint64_t first, std::uint64_t count) {

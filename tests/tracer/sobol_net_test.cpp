@@ -46,6 +46,7 @@ void forEachBlock(const std::function<void(const Block&, std::uint64_t start)>& 
     f(block<SobolSampler>(0, 0, Stream::emission), start);
     f(block<SobolSampler>(0, 0, Stream::emitter), start);
     f(block<SobolSampler>(1, 1, Stream::scatter), start);
+    f(block<SobolSampler>(1, 1, Stream::scatter, true), start);
     f(block<SobolSampler>(~std::uint64_t{0}, 1023, Stream::scatter), start);
   }
 }

@@ -78,6 +78,10 @@ TEST(SobolSampler, BlocksAreUncorrelated) {
     return SobolSampler(seed, photon + (std::uint64_t{k} << 32)).words(1, Stream::scatter);
   });
   EXPECT_TRUE(independentBlocks(billions)) << billions.worst << ' ' << billions.meanSquare;
+  const PaddingScore halves = padding([](std::uint64_t seed, std::uint64_t photon, std::uint32_t k) {
+    return SobolSampler(seed, (std::uint64_t{k / 2} << 32) + 2 * photon + k % 2).words(1, Stream::scatter);
+  });
+  EXPECT_TRUE(independentBlocks(halves)) << halves.worst << ' ' << halves.meanSquare;
   const PaddingScore seeds = padding([](std::uint64_t seed, std::uint64_t photon, std::uint32_t k) {
     return SobolSampler(4 * seed + k, photon).words(1, Stream::scatter);
   });

@@ -94,7 +94,7 @@ TEST(SobolSampler, PicksOfEmittersAreStratifiedAndFineToTheLastBit) {
     std::vector<int> strata(samples, 0);
     std::vector<double> observed(128, 0), expected(128, samples / 128.0);
     for (std::uint64_t i = 0; i < samples; ++i) {
-      const double u = pick(SobolSampler(4, i));
+      const double u = pick(SobolSampler(4, 2 * i));
       ++strata[static_cast<std::size_t>(u * samples)];
       ++observed[static_cast<std::uint64_t>(std::ldexp(u, 53)) & 127u];
     }
@@ -109,7 +109,7 @@ TEST(SobolSampler, PhotonsOfOneEmitterAreStratifiedInWhatIsLeftOfThePickAndTheNe
   constexpr int samples = 1 << 14, emitters = 16, across = 32;
   std::vector<int> cells(samples, 0);
   for (std::uint64_t i = 0; i < samples; ++i) {
-    const EmissionNumbers e = SobolSampler(4, i).emission();
+    const EmissionNumbers e = SobolSampler(4, 2 * i + 1).emission();
     const double scaled = e.pick * emitters, rest = scaled - std::floor(scaled);
     const int cell = (static_cast<int>(scaled) * across + static_cast<int>(rest * across)) * across +
                      static_cast<int>(e.others[0] * across);

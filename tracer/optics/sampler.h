@@ -82,14 +82,16 @@ class RandomSampler {
   std::uint64_t seed_, photon_;
 };
 
-/// The photons k·2^32 to (k + 1)·2^32 − 1 of a block are one point set, scrambled by a hash of (seed, event, stream, k):
-/// any 2^m photons from a multiple of 2^m on are stratified as sobolOwen says.
+/// Photons of even and of odd index are two halves, independent of each other, so that their difference tells the error
+/// of their sum. Those of the photons k·2^32 to (k + 1)·2^32 − 1 of a block that are of one half are one point set,
+/// scrambled by a hash of (seed, event, stream, k, half): any 2^m photons of a half that begin at a multiple of 2^(m + 1)
+/// are stratified as sobolOwen says.
 class SobolSampler {
  public:
   SobolSampler(std::uint64_t seed, std::uint64_t photon)
-      : key_(mix64(mix64(seed) + (photon >> 32))),
+      : key_(mix64(mix64(seed) + (photon >> 32 << 1 | (photon & 1)))),
         photon_(photon),
-        reversed_(reverseBits(static_cast<std::uint32_t>(photon))) {}
+        reversed_(reverseBits(static_cast<std::uint32_t>(photon) >> 1)) {}
   std::uint64_t photon() const { return photon_; }
 
   std::array<std::uint32_t, 4> words(std::uint32_t event, Stream stream) const {

@@ -17,6 +17,7 @@ struct IndexRange {
 struct PhotonHit {
   const Hit& hit;
   std::uint32_t event;  // 1 is the first hit: direct light
+  bool odd;             // of the photon's index: the two halves of the photons are scrambled apart
   // The numbers of this event. Scattering uses the top 24 bits of each; the low 8 are free for rounding.
   const std::array<std::uint32_t, 4>& words;
   Rgb beta;     // incident flux as a fraction of the emitted flux

@@ -66,7 +66,7 @@ class PhotonPath {
     }
     const Vec3f wi = -direction_, n = hit.back ? -hit.n : hit.n;
     const Vec3f ns = scene_.shadingNormal(hit, n);
-    sink_.hit(PhotonHit{hit, event, words, beta_, wi, n, ns});
+    sink_.hit(PhotonHit{hit, event, sampler_.photon() % 2 == 1, words, beta_, wi, n, ns});
     if (!scatter(hit, words, wi, n, ns)) return false;
     from_ = hit.triangle;
     origin_ = RayCaster::leave(hit.position, features.transmission && dot(direction_, n) < 0 ? -n : n, hit.clearance);

@@ -1,0 +1,39 @@
+// One chart side, and what its maps are made with.
+#pragma once
+
+#include <span>
+
+#include "dlm/resolve.h"
+#include "dlm/side_resolver.h"
+#include "tracer/transport/ledger.h"
+
+namespace lucarne {
+
+/// What turns units into lx: those of photons over local area, those of gathered samples by themselves.
+struct Scales {
+  double photons = 0, direct = 0;
+};
+
+struct SideInput {
+  const ResolveInput& in;
+  const TallySide& side;
+  const SideResolver& resolver;
+  const Kernel& kernel;
+  Scales scales;
+  std::span<const double> area() const {
+    return {in.layout.area.data() + in.layout.charts[side.chart].firstTexel, side.texelCount()};
+  }
+};
+
+/// [texel][r, g, b] of map `rank` of the side.
+inline std::span<const std::int64_t> mapUnits(const Tallies& set, const TallySide& side, std::uint64_t rank) {
+  return set.light().subspan((side.firstLight + rank * side.texelCount()) * kLightChannels,
+                             side.texelCount() * kLightChannels);
+}
+
+/// [texel][count, m2, odd].
+inline std::span<const std::int64_t> statisticsOf(const Tallies& set, const TallySide& side) {
+  return set.statistics().subspan(side.firstTexel * kStatisticsChannels, side.texelCount() * kStatisticsChannels);
+}
+
+}  // namespace lucarne

@@ -1,0 +1,65 @@
+#include "dlm/texel_error.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace lucarne {
+
+double errorRatio(const ErrorRatio& side, const ErrorRatio& all) {
+  // As many texels as outweigh what is believed without them.
+  constexpr double kOfAll = 32, kOfSide = 16;
+  const double whole = (all.squares + kOfAll) / (all.texels + kOfAll);
+  return (side.squares + kOfSide * whole) / (side.texels + kOfSide);
+}
+
+ErrorRatio measureErrorRatio(std::span<const double> differences, std::span<const double> variances,
+                             std::span<const double> photons, double overlap) {
+  ErrorRatio ratio;
+  for (std::size_t t = 0; t < differences.size(); ++t) {
+    if (photons[t] < kEnoughPhotons || !(variances[t] > 0)) continue;
+    ratio.squares += differences[t] * differences[t] / variances[t] / overlap;
+    ratio.texels += 1 / overlap;
+  }
+  return ratio;
+}
+
+NeighbourSquares::NeighbourSquares(int width, int height, std::span<const double> photons,
+                                   std::span<const double> squares, std::span<const double> area)
+    : width_(width), height_(height) {
+  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+  LUCARNE_CHECK_EQ(area.size(), w * h);
+  table_.resize((w + 1) * (h + 1));
+  for (std::size_t y = 0; y < h; ++y) {
+    Sums row;
+    for (std::size_t x = 0; x < w; ++x) {
+      const std::size_t t = y * w + x;
+      row = {row.photons + photons[t], row.squares + squares[t], row.area + area[t]};
+      const Sums& above = table_[y * (w + 1) + x + 1];
+      table_[(y + 1) * (w + 1) + x + 1] = {above.photons + row.photons, above.squares + row.squares,
+                                           above.area + row.area};
+    }
+  }
+}
+
+NeighbourSquares::Sums NeighbourSquares::window(int x, int y, int radius) const {
+  const auto at = [&](int u, int v) -> const Sums& {
+    return table_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_ + 1) + static_cast<std::size_t>(u)];
+  };
+  const int left = std::max(0, x - radius), right = std::min(width_, x + radius + 1);
+  const int top = std::max(0, y - radius), bottom = std::min(height_, y + radius + 1);
+  const Sums &a = at(left, top), &b = at(right, top), &c = at(left, bottom), &d = at(right, bottom);
+  return {d.photons - b.photons - c.photons + a.photons, d.squares - b.squares - c.squares + a.squares,
+          d.area - b.area - c.area + a.area};
+}
+
+double NeighbourSquares::density(int x, int y, int smallestRadius) const {
+  for (int radius = smallestRadius;; radius *= 2) {
+    const Sums sums = window(x, y, radius);
+    const bool whole = radius >= std::max(width_, height_);
+    if (sums.photons < kEnoughPhotons && !whole) continue;
+    return sums.area > 0 && sums.squares > 0 ? sums.squares / sums.area : 0;
+  }
+}
+
+}  // namespace lucarne
