@@ -38,7 +38,7 @@ void addGrid(Scene& scene, int nu, int nv, std::uint32_t material, bool smooth, 
 }
 
 /// Fills in what grids leave open: vertex normals (means over the triangles, weighted by area), source vertices, the
-/// one instance.
+/// one instance, and the marks of triangles that are no surface of their own, which must be as many as the triangles.
 inline void finishGrids(Scene& scene) {
   std::vector<Vec3d> sum(scene.positions.size());
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
@@ -49,6 +49,7 @@ inline void finishGrids(Scene& scene) {
   for (auto i = static_cast<std::uint32_t>(scene.sourceVertex.size()); i < vertices; ++i)
     scene.sourceVertex.push_back(i);
   scene.instances = {{0, 0, 0, 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, vertices}};
+  markSkipped(scene);
 }
 
 }  // namespace lucarne::bench
