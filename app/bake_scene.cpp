@@ -13,9 +13,7 @@
 
 namespace lucarne {
 
-int threadCount(const BakeOptions& options) {
-  return options.threads > 0 ? options.threads : threadCount();
-}
+int threadCount(const BakeOptions& options) { return options.threads > 0 ? options.threads : threadCount(); }
 
 BakePlan makePlan(const Scene& scene, const BakeOptions& options, std::uint64_t texelLimit) {
   ChartOptions chartOptions;
@@ -34,8 +32,12 @@ Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& o
   if (header.direct) baked.direct = *header.direct;
   baked.emittedFlux = header.identity.emittedFlux;
   baked.contentHash = tallies.contentHash();
+  const RayCaster caster(scene, {options.isa, true});
+  baked.contacts =
+      findContacts(scene, plan.charts, plan.layout, plan.tallies, caster, makeKernel(options.kernel).radius);
   baked.maps = resolve({scene, plan.charts, plan.layout, plan.tallies, tallies, options.directions, baked.emittedFlux,
-                        header.ledger.photons, baked.direct.samples.count(), baked.direct.samples.countOdd()},
+                        header.ledger.photons, baked.direct.samples.count(), baked.direct.samples.countOdd(),
+                        baked.contacts},
                        options.kernel);
   baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);
   return baked;

@@ -109,8 +109,10 @@ void resolveSide(const ResolveInput& in, const Kernel& kernel, const Scales& sca
   const TallySide& side = in.tallyLayout.sides[index];
   const std::span<const double> area(in.layout.area.data() + in.layout.charts[side.chart].firstTexel,
                                      side.texelCount());
-  const SideResolver resolver(side.width, side.height, area, kernel);
-  const SideInput s{in, side, resolver, kernel, scales};
+  const SideContacts none;
+  const SideContacts& contacts = in.contacts.empty() ? none : in.contacts[index];
+  const SideResolver resolver(side.width, side.height, area, kernel, contacts);
+  const SideInput s{in, side, resolver, kernel, contacts, scales};
   const std::vector<Rgbd> photons = in.photons > 0 ? addSet(s, false, out, maps) : std::vector<Rgbd>(side.texelCount());
   std::vector<Rgbd> irradiance = photons;
   if (in.samples > 0) {

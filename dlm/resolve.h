@@ -1,9 +1,10 @@
 // Resolve: tallies become light maps.
 //
-//   value(t) = Σ k(t,t')·tally(t') / Σ k(t,t')·area(t')
+//   value(t) = Σ k(t,t')·tally(t') / Σ k(t,t')·open area(t')
 //
-// area(t') is the surface inside texel t'. A constant irradiance E gives tallies E·area(t') on average, hence value E at
-// every texel up to the chart's edge. Texels without surface but within the kernel of some are extrapolated by the same formula;
+// open area(t') is the surface inside texel t' that light can reach, and the sums are over the t' that no geometry
+// separates from t (texel_contacts.h). A constant irradiance E gives tallies E·open area(t') on average, hence
+// value E at every texel up to the chart's edge, and up to the foot of a wall. Texels without surface but within the kernel of some are extrapolated by the same formula;
 // the others copy the nearest that has a value. The physical scale enters here, once, in double: one tally unit is
 // 2^-24 · emitted flux / photons. Where direct light was gathered (direct_gather.h), its set has tally(t') = area(t') ·
 // mean over its samples, and the two sets are added; so are the variances (texel_error.h).
@@ -12,6 +13,7 @@
 #include "dlm/kernel.h"
 #include "dlm/light_maps.h"
 #include "dlm/tally.h"
+#include "dlm/texel_contacts.h"
 
 namespace lucarne {
 
@@ -26,6 +28,7 @@ struct ResolveInput {
   std::uint64_t photons;  // traced; 0 gives black maps
   std::uint64_t samples = 0;  // of the second set of the tallies; 0: nothing of it counts
   std::uint64_t oddSamples = 0;  // those of odd index among them
+  std::span<const SideContacts> contacts = {};  // by side, as findContacts() finds them; empty: as if there were none
 };
 
 /// Everything of LightMaps but the place in the atlas.

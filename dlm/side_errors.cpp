@@ -49,9 +49,10 @@ std::vector<float> deviationsOf(const std::vector<double>& variances) {
 std::vector<double> squaresUnderKernel(const SideInput& s, const std::vector<double>& photonsUnderKernel) {
   const auto statistics = statisticsOf(s.in.tallies, s.side);
   const std::vector<double> squares = channelOf(statistics, kSquares);
-  const NeighbourSquares neighbours(s.side.width, s.side.height, channelOf(statistics, kCount), squares, s.area());
+  const std::vector<double> open = s.openArea();
+  const NeighbourSquares neighbours(s.side.width, s.side.height, channelOf(statistics, kCount), squares, open);
   std::vector<double> own = s.resolver.filterSquares(squares);
-  const std::vector<double> spread = s.resolver.filterSquares(s.area());
+  const std::vector<double> spread = s.resolver.filterSquares(open);
   for (std::size_t t = 0; t < own.size(); ++t) {
     const double share = neighbourShare(photonsUnderKernel[t]);
     if (share < 1e-3) continue;

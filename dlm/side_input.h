@@ -19,9 +19,16 @@ struct SideInput {
   const TallySide& side;
   const SideResolver& resolver;
   const Kernel& kernel;
+  const SideContacts& contacts;
   Scales scales;
   std::span<const double> area() const {
     return {in.layout.area.data() + in.layout.charts[side.chart].firstTexel, side.texelCount()};
+  }
+  /// What of it light reaches.
+  std::vector<double> openArea() const {
+    std::vector<double> open(area().begin(), area().end());
+    for (std::size_t t = 0; t < open.size(); ++t) open[t] *= contacts.share(t);
+    return open;
   }
 };
 

@@ -11,42 +11,53 @@ namespace lucarne {
 template <class F>
 void SideResolver::forNeighbours(int x, int y, F&& f) const {
   const int r = kernel_.radius;
+  const auto here = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   for (int v = std::max(0, y - r); v <= std::min(height_ - 1, y + r); ++v) {
-    for (int u = std::max(0, x - r); u <= std::min(width_ - 1, x + r); ++u)
-      f(static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u), kernel_(u - x) * kernel_(v - y));
+    for (int u = std::max(0, x - r); u <= std::min(width_ - 1, x + r); ++u) {
+      const auto n = static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
+      if (!contacts_.empty() && (!(contacts_.share(n) > 0) || contacts_.separated(here, u - x, v - y))) continue;
+      f(n, kernel_(u - x) * kernel_(v - y));
+    }
   }
 }
 
-SideResolver::SideResolver(int width, int height, std::span<const double> area, const Kernel& kernel)
-    : width_(width), height_(height), kernel_(kernel) {
+SideResolver::SideResolver(int width, int height, std::span<const double> area, const Kernel& kernel,
+                           const SideContacts& contacts)
+    : width_(width), height_(height), kernel_(kernel), contacts_(contacts) {
   LUCARNE_CHECK_EQ(area.size(), static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   inverseArea_.resize(area.size());
   std::size_t t = 0;
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x, ++t) {
       double sum = 0;
-      forNeighbours(x, y, [&](std::size_t n, double k) { sum += k * area[n]; });
-      inverseArea_[t] = sum > 0 ? 1 / sum : 0;
+      forNeighbours(x, y, [&](std::size_t n, double k) { sum += k * area[n] * contacts.share(n); });
+      inverseArea_[t] = sum > 0 && !contacts.hidden(t) ? 1 / sum : 0;
     }
   }
   findSources();
 }
 
-/// Breadth first from the texels with a value, so that each of the others finds a nearest one.
+/// Breadth first from the texels with a value, so that each of the others finds a nearest one: without crossing a
+/// contact where that is possible.
 void SideResolver::findSources() {
-  source_.assign(inverseArea_.size(), ~std::uint32_t{0});
+  source_.assign(inverseArea_.size(), kNone);
   std::vector<std::uint32_t> queue;
   for (std::uint32_t t = 0; t < source_.size(); ++t) {
     if (inverseArea_[t] <= 0) continue;
     source_[t] = t;
     queue.push_back(t);
   }
+  spreadSources(queue, false);
+  if (!contacts_.empty()) spreadSources(queue, true);
+}
+
+void SideResolver::spreadSources(std::vector<std::uint32_t>& queue, bool acrossContacts) {
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const int x = static_cast<int>(queue[head]) % width_, y = static_cast<int>(queue[head]) / width_;
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       if (x + dx < 0 || x + dx >= width_ || y + dy < 0 || y + dy >= height_) continue;
       const auto n = static_cast<std::uint32_t>((y + dy) * width_ + x + dx);
-      if (source_[n] != ~std::uint32_t{0}) continue;
+      if (source_[n] != kNone || (!acrossContacts && contacts_.separated(queue[head], dx, dy))) continue;
       source_[n] = source_[queue[head]];
       queue.push_back(n);
     }
@@ -56,7 +67,7 @@ void SideResolver::findSources() {
 template <class T>
 void SideResolver::spread(std::vector<T>& values) const {
   for (std::size_t t = 0; t < values.size(); ++t)
-    if (source_[t] != t && source_[t] != ~std::uint32_t{0}) values[t] = values[source_[t]];
+    if (source_[t] != t && source_[t] != kNone) values[t] = values[source_[t]];
 }
 
 template <class T, class F>

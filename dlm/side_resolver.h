@@ -1,18 +1,20 @@
-// The weights of one chart side: kernel sums over area, and where texels without surface take their value from.
+// The weights of one chart side: kernel sums over open area, and where texels without it take their value from. Texels
+// that contacts separate or cut (texel_contacts.h) give nothing to each other.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "dlm/kernel.h"
 #include "base/vec.h"
+#include "dlm/kernel.h"
+#include "dlm/texel_contacts.h"
 
 namespace lucarne {
 
 class SideResolver {
  public:
-  /// `area`: surface in each of the width × height texels, any unit.
-  SideResolver(int width, int height, std::span<const double> area, const Kernel& kernel);
+  /// `area`: surface in each of the width × height texels, any unit. `contacts` and `kernel` must outlive this.
+  SideResolver(int width, int height, std::span<const double> area, const Kernel& kernel, const SideContacts& contacts);
 
   /// Per texel: (Σ k·units(t')) / (Σ k·area(t')) per channel, `units` interleaved [texel][channels].
   std::vector<Rgbd> filterRgb(std::span<const std::int64_t> units) const;
@@ -34,10 +36,12 @@ class SideResolver {
   template <class T>
   void spread(std::vector<T>& values) const;
   void findSources();
+  void spreadSources(std::vector<std::uint32_t>& queue, bool acrossContacts);
 
   int width_, height_;
   const Kernel& kernel_;
-  std::vector<double> inverseArea_;    // 1 / Σ k·area; 0: no surface within the kernel
+  const SideContacts& contacts_;
+  std::vector<double> inverseArea_;    // 1 / Σ k·open area; 0: no surface within the kernel, or hidden
   std::vector<std::uint32_t> source_;  // texel to copy from; itself where it has a value
 };
 

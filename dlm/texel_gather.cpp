@@ -19,15 +19,20 @@ TexelTile tileAbout(std::uint32_t chart, const ChartLayout& layout, int x, int y
 /// The surface that the kernel about one texel reaches.
 class KernelSurface {
  public:
-  KernelSurface(const GatherScene& in, const TallySide& side, int x, int y, const Kernel& kernel)
+  KernelSurface(const GatherScene& in, const TallySide& side, const SideContacts& contacts, int x, int y,
+                const Kernel& kernel)
       : tile_(tileAbout(side.chart, in.layout.charts[side.chart], x, y, kernel.radius)),
         surface_(in.scene.scene(), in.charts, in.layout, tile_) {
     const ChartLayout& layout = in.layout.charts[side.chart];
+    const auto texel = [&layout](int u, int v) { return static_cast<std::size_t>(v * layout.width + u); };
+    if (contacts.hidden(texel(x, y))) return;
     for (int v = tile_.y; v < tile_.y + tile_.height; ++v) {
       for (int u = tile_.x; u < tile_.x + tile_.width; ++u) {
-        const double k = kernel(u - x) * kernel(v - y);
+        const double share = contacts.share(texel(u, v));
+        const bool counts = share > 0 && !contacts.separated(texel(x, y), u - x, v - y);
+        const double k = counts ? kernel(u - x) * kernel(v - y) : 0;
         cumulative_.push_back(k * surface_.area(cumulative_.size()));
-        kernelArea_ += k * in.layout.area[layout.firstTexel + static_cast<std::uint64_t>(v * layout.width + u)];
+        kernelArea_ += k * share * in.layout.area[layout.firstTexel + texel(u, v)];
       }
     }
     guide_.resize(cumulative_.size());
@@ -75,7 +80,8 @@ TexelGatherResult gatherTexel(const GatherScene& in, std::uint32_t sideIndex, in
   const TallySide& side = in.tallies.sides[sideIndex];
   const MemberSet& members = in.tallies.membersOf(side);
   const Kernel kernel = makeKernel(options);
-  const KernelSurface surface(in, side, x, y, kernel);
+  const SideContacts none;
+  const KernelSurface surface(in, side, in.contacts.empty() ? none : in.contacts[sideIndex], x, y, kernel);
   TexelGatherResult result;
   result.byRank.resize(members.mapCount());
   if (surface.empty()) return result;

@@ -1,9 +1,9 @@
 // What a light map holds at a texel, by paths that start there instead of photons that end there: the truth that maps
 // are tested against.
 //
-//   value(t) = Σ k(t,t')·∫_t' E·α dA / Σ k(t,t')·area(t')
+//   value(t) = Σ k(t,t')·∫_t' E·α dA / Σ k(t,t')·open area(t')
 //
-// the same functional as resolve.h, with the same areas: places are drawn from the surface inside the texels t' that
+// the same functional as resolve.h, with the same areas and contacts: places are drawn from the surface inside the texels t' that
 // the kernel reaches, in proportion to k, and light that falls there is gathered by the path tracer. Map and gather
 // have the same expectation, however coarse the texels are.
 #pragma once
@@ -15,6 +15,7 @@
 #include "dlm/deposit.h"
 #include "dlm/kernel.h"
 #include "dlm/tally.h"
+#include "dlm/texel_contacts.h"
 #include "tracer/transport/path_tracer.h"
 
 namespace lucarne {
@@ -25,6 +26,7 @@ struct GatherScene {
   const TexelLayout& layout;
   const TallyLayout& tallies;
   const DirectionSet& directions;
+  std::span<const SideContacts> contacts = {};  // by side, as for resolve(); empty: as if there were none
 };
 
 /// Mean and standard error of luminance, lx.
