@@ -240,7 +240,7 @@ void readGeometry(const GltfSource& source, const std::vector<WorldNode>& nodes,
     if (!uv->empty()) uv->resize(scene.positions.size());
   }
   if (!scene.tangents.empty()) fillTangents(scene);
-  if (foreignCharts) scene.leftOut.push_back("vertex attribute _CHART: does not hold chart numbers, ignored");
+  if (foreignCharts) scene.leftOut.emplace_back("vertex attribute _CHART: does not hold chart numbers, ignored");
   if (foreignCharts || !hasCharts(source, uses)) scene.chartOfTriangle.clear();
 }
 

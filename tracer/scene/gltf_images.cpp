@@ -38,7 +38,7 @@ void dropNormalMaps(std::uint32_t image, const std::string& name, GltfMaterials&
     m.normalTexture = {};
     dropped = true;
   }
-  if (dropped) leftOut.push_back("normal maps of image " + name + ": ignored");
+  if (dropped) leftOut.emplace_back("normal maps of image " + name + ": ignored");
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ std::vector<Image> readImages(const GltfSource& source, GltfMaterials& materials
     const std::string name = imageName(source, i);
     const std::span<const std::uint8_t> bytes = source.imageBytes(i);
     if (bytes.empty()) {
-      leftOut.push_back("image " + name + ": cannot be found, white stands in");
+      leftOut.emplace_back("image " + name + ": cannot be found, white stands in");
       dropNormalMaps(i, name, materials, leftOut);
       continue;
     }
@@ -62,7 +62,7 @@ std::vector<Image> readImages(const GltfSource& source, GltfMaterials& materials
       if (total > kMaxDecodedBytes) throw InputError("too large");
       images[i] = {decoded.width, decoded.height, std::move(decoded.rgba)};
     } catch (const InputError&) {
-      leftOut.push_back("image " + name + ": is not a PNG or JPEG that can be decoded, white stands in");
+      leftOut.emplace_back("image " + name + ": is not a PNG or JPEG that can be decoded, white stands in");
       dropNormalMaps(i, name, materials, leftOut);
     }
   }

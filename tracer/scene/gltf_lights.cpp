@@ -86,7 +86,7 @@ std::vector<Light> readLights(const GltfSource& source, const std::vector<WorldN
     ranges |= list[index].contains("range");
     lights.push_back(std::move(light));
   }
-  if (ranges) leftOut.push_back("range of lights: ignored, light falls off with the square of the distance");
+  if (ranges) leftOut.emplace_back("range of lights: ignored, light falls off with the square of the distance");
   return lights;
 }
 
@@ -112,7 +112,7 @@ std::vector<Camera> readCameras(const GltfSource& source, const std::vector<Worl
     if (!(camera.yfov > 0 && camera.yfov < kPi)) place.in("perspective").fail("has a yfov outside 0 .. pi");
     cameras.push_back(std::move(camera));
   }
-  if (orthographic > 0) leftOut.push_back("orthographic cameras: left out");
+  if (orthographic > 0) leftOut.emplace_back("orthographic cameras: left out");
   return cameras;
 }
 

@@ -103,8 +103,8 @@ void listMissingImages(GltfMaterials& all, std::vector<std::string>& leftOut) {
     }
     for (const TextureUse* use : textureUses(m)) white |= missing(*use);
   }
-  if (white) leftOut.push_back("textures without a PNG or JPEG image: white stands in");
-  if (flat) leftOut.push_back("normal maps without a PNG or JPEG image: ignored");
+  if (white) leftOut.emplace_back("textures without a PNG or JPEG image: white stands in");
+  if (flat) leftOut.emplace_back("normal maps without a PNG or JPEG image: ignored");
 }
 
 }  // namespace
@@ -124,13 +124,13 @@ GltfMaterials readMaterials(const GltfSource& source, std::vector<std::string>& 
     all.uvSlots.push_back(reader.textures().slots());
     clamped |= reader.clamped();
     if (reader.textures().thirdUvSet()) {
-      leftOut.push_back("third set of texture coordinates of material " + std::to_string(i) +
+      leftOut.emplace_back("third set of texture coordinates of material " + std::to_string(i) +
                         ": its second one is used");
     }
   }
   all.materials.emplace_back().name = "default";
   all.uvSlots.push_back({0, 1});
-  if (clamped) leftOut.push_back("material factors outside their range: brought into it");
+  if (clamped) leftOut.emplace_back("material factors outside their range: brought into it");
   listMissingImages(all, leftOut);
   return all;
 }
