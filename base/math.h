@@ -42,12 +42,14 @@ inline void sinCosTurns(float u, float& s, float& c) {
   const float sine = x + x * z * (-1.6666654611e-1f + z * (8.3321608736e-3f - z * 1.9515295891e-4f));
   const float cosine =
       1.f - 0.5f * z + z * z * (4.166664568298827e-2f + z * (-1.388731625493765e-3f + z * 2.443315711809948e-5f));
-  const bool isOdd = (quarter & 1) != 0;
-  // Signs: sine is negative in quarters 2 and 3, cosine in 1 and 2; both set without a branch in the sign bit.
+  // In odd quarters the two change places; sine is negative in quarters 2 and 3, cosine in 1 and 2. All without a branch,
+  // which could not be foretold.
+  const auto sineBits = std::bit_cast<std::uint32_t>(sine), cosineBits = std::bit_cast<std::uint32_t>(cosine);
+  const std::uint32_t change = (sineBits ^ cosineBits) & (0u - static_cast<std::uint32_t>(quarter & 1));
   const auto signS = static_cast<std::uint32_t>(quarter & 2) << 30;
   const auto signC = static_cast<std::uint32_t>((quarter + 1) & 2) << 30;
-  s = std::bit_cast<float>(std::bit_cast<std::uint32_t>(isOdd ? cosine : sine) ^ signS);
-  c = std::bit_cast<float>(std::bit_cast<std::uint32_t>(isOdd ? sine : cosine) ^ signC);
+  s = std::bit_cast<float>(sineBits ^ change ^ signS);
+  c = std::bit_cast<float>(cosineBits ^ change ^ signC);
 }
 
 /// Linear value of an 8-bit sRGB code (IEC 61966-2-1).

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -40,13 +41,15 @@ class DirectionSet {
     const float perSum = 1 / sum;
     const float qx = w.x * perSum, qy = w.y * perSum;
     const float fx = std::copysign(1 - std::abs(qy), qx), fy = std::copysign(1 - std::abs(qx), qy);
-    const float px = w.z < 0 ? fx : qx, py = w.z < 0 ? fy : qy;
+    const std::uint32_t lower = 0u - (std::bit_cast<std::uint32_t>(w.z) >> 31);  // no branch: it could not be foretold
+    const float px = choose(lower, fx, qx), py = choose(lower, fy, qy);
     const float half = 0.5f * static_cast<float>(gridSize_);
     const int x = std::min(std::max(static_cast<int>((px + 1) * half), 0), gridSize_ - 1);
     const int y = std::min(std::max(static_cast<int>((py + 1) * half), 0), gridSize_ - 1);
     const auto cell = static_cast<std::size_t>(y * gridSize_ + x);
     const std::uint16_t only = only_[cell];
-    if (only != kSeveral) [[likely]] return only;
+    if (only != kSeveral) [[likely]]
+      return only;
     return nearestOfSeveral(cell, w);
   }
 
@@ -67,6 +70,10 @@ class DirectionSet {
     double coneSine;  // sine of the cell's radius about ψ; 2 if that is not below 90 degrees
   };
   static constexpr std::uint16_t kSeveral = 0xffff;
+  /// `a` where all bits of the mask are set, `b` where none is.
+  static float choose(std::uint32_t mask, float a, float b) {
+    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) | (std::bit_cast<std::uint32_t>(b) & ~mask));
+  }
   int nearestOfSeveral(std::size_t cell, Vec3f w) const;
   void buildCells();
   void buildLookup();

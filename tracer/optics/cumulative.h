@@ -40,9 +40,11 @@ struct Choice {
 inline Choice choose(std::span<const double> cumulative, std::span<const std::uint32_t> guide, double u) {
   const std::size_t n = cumulative.size();
   std::size_t i = guide[std::min(static_cast<std::size_t>(u * static_cast<double>(n)), n - 1)];
-  while (i > 0 && cumulative[i - 1] > u) --i;  // u·n may have been rounded up to the next entry of the guide
-  while (i + 1 < n && cumulative[i] <= u) ++i;
-  const double lo = i > 0 ? cumulative[i - 1] : 0;
+  // Where a choice begins: 0, or the end of the one before. Without a branch, which could not be foretold.
+  const auto begin = [&](std::size_t k) { return cumulative[k - (k > 0)] * static_cast<double>(k > 0); };
+  while (begin(i) > u) --i;  // u·n may have been rounded up to the next entry of the guide
+  while (cumulative[i] <= u && i + 1 < n) ++i;
+  const double lo = begin(i);
   constexpr double kBelowOne = 1 - 0x1p-53;
   return {i, std::min((u - lo) / (cumulative[i] - lo), kBelowOne)};
 }

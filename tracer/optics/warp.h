@@ -42,15 +42,11 @@ inline Vec3f directionAround(float cosTheta, float uAzimuth) {
   return {r * c, r * s, cosTheta};
 }
 
-/// Uniform barycentrics (b1, b2) of a triangle, b0 = 1 − b1 − b2. pdf = 1/area. (Heitz 2019, "A low-distortion map between triangle
-/// and square": the fold keeps neighbours near and needs no root.)
+/// Uniform barycentrics (b1, b2) of a triangle, b0 = 1 − b1 − b2. pdf = 1/area. (Heitz 2019, "A low-distortion map
+/// between triangle and square": the fold keeps neighbours near and needs no root.)
 inline Vec2f sampleTriangle(Vec2f u) {
-  if (u.x < u.y) {
-    const float b1 = u.x * 0.5f;
-    return {b1, u.y - b1};
-  }
-  const float b2 = u.y * 0.5f;
-  return {u.x - b2, b2};
+  const float half = std::min(u.x, u.y) * 0.5f;
+  return {u.x - half, u.y - half};
 }
 
 }  // namespace lucarne
