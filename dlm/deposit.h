@@ -1,7 +1,7 @@
 // The sink that counts photon hits in tallies.
 //
-// A deposit is a few adds at a random place: nearly all of its cost is the cache miss. So the last splats are held in a
-// ring, their lines prefetched on entry, and added when they leave it.
+// A deposit is a few adds at a random place: nearly all of its cost is the miss of the cache and of the page table. So
+// deposits are held back and added a group at a time, in a loop so short that the misses of many overlap.
 #pragma once
 
 #include <array>
@@ -75,61 +75,41 @@ class DepositSink {
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(side.width) + static_cast<std::uint64_t>(x);
     const std::uint64_t rank =
         side.rank == nullptr ? 0 : side.rank[static_cast<std::size_t>(directions_.nearest(h.wi))];
-    splat(side.firstLight + rank * side.texelCount + texel, side.firstTexel + texel, h);
+    const Rgb value = received(h);
+    hold(side.firstLight + rank * side.texelCount + texel, side.firstTexel + texel, value, h);
   }
 
-  void endPhoton() {
-    // One photon may come back to a texel; its share is squared as a whole.
-    for (std::size_t i = 0; i < path_.size(); ++i) {
-      if (path_[i].texel == kTaken) continue;
-      float sum = path_[i].luminance;
-      for (std::size_t j = i + 1; j < path_.size(); ++j) {
-        if (path_[j].texel != path_[i].texel) continue;
-        sum += path_[j].luminance;
-        path_[j].texel = kTaken;
-      }
-      count(statistics_ + path_[i].texel * kStatisticsChannels,
-            roundUnits(std::min(sum * sum, kLargestSquare), path_[i].word),
-            odd_ ? roundUnits(sum, path_[i].word >> 8) : 0);
-    }
-    path_.clear();
-    sums_.incident += incident_;
-    incident_ = {};
+  [[gnu::always_inline]] void endPhoton() {
+    if (mayReturn_) mergeReturns();
+    mayReturn_ = false;
+    texels_ = 0;
+    firstOfPhoton_ = held_.size();
+    if (held_.size() >= kGroup) addHeld();
   }
 
-  void flush() {
-    for (Pending& p : ring_) {
-      apply(p);
-      p.at = nullptr;
-    }
-    for (PendingCount& p : counts_) {
-      apply(p);
-      p.at = nullptr;
-    }
-  }
+  void flush() { addHeld(); }
   DepositSums sums() const {
     DepositSums all = sums_;
     all.incident += incident_;
     return all;
   }
   /// Between photons: counts from zero again.
-  void resetSums() { sums_ = {}; }
+  void resetSums() {
+    sums_ = {};
+    incident_ = {};
+  }
 
  private:
   static constexpr std::uint64_t kTaken = ~std::uint64_t{0};
   static constexpr float kLargestSquare = 0x1p30f;  // times 2^32 still fits 63 bits
-  struct Pending {
-    std::int64_t* at = nullptr;
-    std::array<std::int64_t, 3> units{};
-  };
-  struct PendingCount {
-    std::int64_t* at = nullptr;
-    std::int64_t m2 = 0, odd = 0;
-  };
-  struct PathHit {
-    std::uint64_t texel;
-    float luminance;
-    std::uint32_t word;  // for rounding
+  static constexpr std::size_t kGroup = 64;
+  static constexpr std::uint32_t kOddBit = 0x80000000u;
+  struct Held {
+    std::uint64_t entry;
+    std::array<std::int64_t, 3> units;
+    std::uint64_t texel;  // kTaken: counted by an earlier hit of the photon
+    float luminance;      // all that the photon brings to the texel
+    std::uint32_t word;   // for rounding; its top bit says that the photon is an odd one
   };
 
   static void add(std::int64_t* p, std::int64_t v) {
@@ -141,7 +121,7 @@ class DepositSink {
 
   /// Light as the shading normal receives it (see shadingReception), clamped.
   Rgb received(const PhotonHit& h) {
-    if (h.ns == h.n) return h.beta;
+    if (!h.hit.smooth || h.ns == h.n) return h.beta;
     float factor = shadingReception(h.wi, h.n, h.ns);
     if (factor > kLargestShadingCorrection) {
       factor = kLargestShadingCorrection;
@@ -150,38 +130,54 @@ class DepositSink {
     return h.beta * factor;
   }
 
-  [[gnu::always_inline]] void splat(std::uint64_t entry, std::uint64_t texel, const PhotonHit& h) {
-    const Rgb value = received(h);
-    Pending& slot = ring_[head_];
-    head_ = (head_ + 1) % ring_.size();
-    apply(slot);
-    slot.at = light_ + entry * kLightChannels;
-    __builtin_prefetch(slot.at, 1);
-    __builtin_prefetch(slot.at + 2, 1);
-    __builtin_prefetch(statistics_ + texel * kStatisticsChannels, 1);
+  [[gnu::always_inline]] void hold(std::uint64_t entry, std::uint64_t texel, const Rgb& value, const PhotonHit& h) {
     const std::int64_t r = roundUnits(value.x, h.words[0]), g = roundUnits(value.y, h.words[1]),
                        b = roundUnits(value.z, h.words[2]);
-    slot.units = {r, g, b};
     incident_.units = {incident_.units[0] + r, incident_.units[1] + g, incident_.units[2] + b};
     ++sums_.storedHits;
-    odd_ = h.odd;
-    path_.push_back({texel, luminance(value), h.words[3]});
+    held_.push_back({entry, {r, g, b}, texel, luminance(value), (h.words[3] & ~kOddBit) | (h.odd ? kOddBit : 0u)});
+    const std::uint64_t bit = std::uint64_t{1} << (texel * 0x9E3779B97F4A7C15u >> 58);
+    mayReturn_ |= (texels_ & bit) != 0;
+    texels_ |= bit;
   }
-  void count(std::int64_t* at, std::int64_t m2, std::int64_t odd) {
-    PendingCount& slot = counts_[countHead_];
-    countHead_ = (countHead_ + 1) % counts_.size();
-    apply(slot);
-    slot = {at, m2, odd};
+
+  /// One photon may come back to a texel; its share is squared as a whole.
+  [[gnu::noinline]] void mergeReturns() {
+    for (std::size_t i = firstOfPhoton_; i < held_.size(); ++i) {
+      if (held_[i].texel == kTaken) continue;
+      for (std::size_t j = i + 1; j < held_.size(); ++j) {
+        if (held_[j].texel != held_[i].texel) continue;
+        held_[i].luminance += held_[j].luminance;
+        held_[j].texel = kTaken;
+      }
+    }
   }
-  static void apply(const PendingCount& p) {
-    if (p.at == nullptr) return;
-    add(p.at + kCount, 1);
-    add(p.at + kSquares, p.m2);
-    if (p.odd != 0) add(p.at + kOdd, p.odd);
+
+  [[gnu::noinline]] void addHeld() {
+    if constexpr (shared) prefetchHeld();  // locked adds wait for their lines one by one, plain ones do not
+    for (const Held& h : held_) {
+      std::int64_t* light = light_ + h.entry * kLightChannels;
+      for (std::size_t c = 0; c < 3; ++c) add(light + c, h.units[c]);
+      if (h.texel == kTaken) continue;
+      std::int64_t* statistics = statistics_ + h.texel * kStatisticsChannels;
+      add(statistics + kCount, 1);
+      add(statistics + kSquares, roundUnits(std::min(h.luminance * h.luminance, kLargestSquare), h.word));
+      const std::int64_t odd = -static_cast<std::int64_t>((h.word & kOddBit) != 0);
+      add(statistics + kOdd, roundUnits(h.luminance, h.word >> 8) & odd);
+    }
+    held_.clear();
+    firstOfPhoton_ = 0;
+    sums_.incident += incident_;
+    incident_ = {};
   }
-  static void apply(const Pending& p) {
-    if (p.at == nullptr) return;
-    for (std::size_t c = 0; c < 3; ++c) add(p.at + c, p.units[c]);
+  void prefetchHeld() const {
+    for (const Held& h : held_) {
+      __builtin_prefetch(light_ + h.entry * kLightChannels, 1);
+      __builtin_prefetch(light_ + h.entry * kLightChannels + 2, 1);
+      if (h.texel == kTaken) continue;
+      __builtin_prefetch(statistics_ + h.texel * kStatisticsChannels, 1);
+      __builtin_prefetch(statistics_ + h.texel * kStatisticsChannels + kOdd, 1);
+    }
   }
 
   const TexelMap& map_;
@@ -189,12 +185,11 @@ class DepositSink {
   LightPart part_;
   std::int64_t* light_;
   std::int64_t* statistics_;
-  std::array<Pending, 16> ring_{};
-  std::array<PendingCount, 16> counts_{};
-  std::size_t head_ = 0, countHead_ = 0;
-  bool odd_ = false;  // the photon in flight
-  std::vector<PathHit> path_;
-  FixedRgb incident_;  // of the photon in flight; 64 bits hold any single path
+  std::vector<Held> held_;  // whole photons, and that in flight
+  std::size_t firstOfPhoton_ = 0;
+  std::uint64_t texels_ = 0;  // of the photon in flight: a bit by hash for each
+  bool mayReturn_ = false;    // two of them had the same bit
+  FixedRgb incident_;         // of what is held: 64 bits hold the longest path and a group (beta ≤ 2^24)
   DepositSums sums_;
 };
 
