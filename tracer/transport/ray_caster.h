@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/huge_allocator.h"
-#include "base/vec.h"
+#include "base/vec_pair.h"
 #include "tracer/scene/scene.h"
 
 struct RTCDeviceTy;
@@ -101,14 +101,14 @@ class RayCaster {
 /// by the inset, or a ray that leaves in a corner could start, by rounding, on the other side of the neighbour.
 inline Hit RayCaster::intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const {
   const TriangleData& t = triangles_[triangle];
-  const Vec3d p0(t.p0), e1(t.e1), e2(t.e2), d(direction), s = Vec3d(origin) - p0;
-  const Vec3d p = cross(d, e2);
+  const Vec3dPair p0(t.p0), e1(t.e1), e2(t.e2), d(direction), s = Vec3dPair(origin) - p0;
+  const Vec3dPair p = cross(d, e2);
   const double inv = 1 / dot(e1, p), inset(t.inset);
   const double b1 = std::min(std::max(inset, dot(s, p) * inv), 1.0 - 2 * inset);
   const double b2 = std::min(std::max(inset, dot(d, cross(s, e1)) * inv), 1.0 - inset - b1);
   return {triangle,
           {static_cast<float>(b1), static_cast<float>(b2)},
-          p0 + e1 * b1 + e2 * b2,
+          Vec3d(p0 + e1 * b1 + e2 * b2),
           t.n,
           dot(t.n, direction) > 0,
           t.smooth != 0,
