@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "tracer/optics/cumulative.h"
-#include "tracer/optics/warp.h"
 #include "tracer/scene/scene_cleanup.h"
 
 namespace lucarne {
@@ -49,8 +47,6 @@ double quadrature(const std::array<Vec2f, 3>& piece, F&& value) {
   forEachPiece(4, [&](const std::array<Vec2f, 3>& cell) { sum += value(at(piece, at(cell, {1.f / 3, 1.f / 3}))); });
   return sum / 16;
 }
-
-float belowOne(double u) { return std::min(static_cast<float>(u), 1 - 0x1p-24f); }
 
 constexpr std::array<Vec2f, 3> kWholeTriangle{Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0, 1}};
 
@@ -126,6 +122,16 @@ void EmitterTable::addTriangle(std::uint32_t triangle) {
   faces_.push_back({p0, scene_->corner(triangle, 1) - p0, scene_->corner(triangle, 2) - p0,
                     Vec3f(normalize(scene_->scaledNormal(triangle))), m.emissive, triangle, firstEmitter,
                     static_cast<std::uint32_t>(n), bool(m.emissiveTexture) || m.hasAlpha(), m.doubleSided});
+  if (!faces_.back().textured) addPlain();
+}
+
+/// The face and emitter added last: a face without textures is one piece.
+void EmitterTable::addPlain() {
+  const Face& f = faces_.back();
+  Emitter& e = emitters_.back();
+  e.plain = static_cast<std::uint32_t>(plainFaces_.size());
+  plainFaces_.push_back({{Frame<float>(f.n), Frame<float>(-f.n)}, f.p0, f.e1, f.e2, Rgb(Rgbd(f.radiance) * e.beta),
+                         f.triangle, f.twoSided});
 }
 
 void EmitterTable::addLight(std::uint32_t index) {
@@ -188,15 +194,12 @@ std::size_t EmitterTable::pick(double u) const { return choose(cumulative_, guid
 EmissionPlace EmitterTable::placeFor(std::size_t emitter, double rest, const std::array<float, 3>& others) const {
   const Emitter& e = emitters_[emitter];
   if (e.face == kNone) return {0, {others[1], others[2]}, {belowOne(rest), others[0]}};
-  if (!faces_[e.face].twoSided) return {0, {belowOne(rest), others[0]}, {others[1], others[2]}};
-  const double half = 2 * rest;
-  return {belowOne(rest), {belowOne(half < 1 ? half : half - 1), others[0]}, {others[1], others[2]}};
+  return placeOnFace(faces_[e.face].twoSided, rest, others);
 }
 
-EmittedPhoton EmitterTable::sample(const EmissionNumbers& u) const {
-  const Choice choice = choose(cumulative_, guide_, u.pick);
+EmittedPhoton EmitterTable::sample(const Choice& choice, const std::array<float, 3>& others) const {
   const Emitter& e = emitters_[choice.index];
-  EmissionPlace place = placeFor(choice.index, choice.rest, u.others);
+  EmissionPlace place = placeFor(choice.index, choice.rest, others);
   if (e.guide == kNone) return sampleUnguided(choice.index, place);
   const EmissionGuide::Numbers guided = guides_[e.guide].warp(place.direction, place.position);
   EmittedPhoton photon = sampleUnguided(choice.index, {place.side, guided.place, guided.direction});

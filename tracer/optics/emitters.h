@@ -11,10 +11,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "tracer/optics/cumulative.h"
 #include "tracer/optics/emission_guide.h"
 #include "tracer/optics/environment.h"
 #include "tracer/optics/sampler.h"
 #include "tracer/optics/surface.h"
+#include "tracer/optics/warp.h"
 #include "tracer/scene/scene.h"
 
 namespace lucarne {
@@ -45,6 +47,7 @@ class EmitterTable {
     std::uint32_t light;          // into the scene's lights; kSky: the environment
     Vec2f bary0, edge1, edge2;    // corner and edges of the piece in barycentrics of the face
     std::uint32_t guide = kNone;  // into guides_
+    std::uint32_t plain = kNone;  // into plainFaces_: of a face that shines the same everywhere
   };
   struct Face {  // what all pieces of one emissive triangle share
     Vec3f p0, e1, e2, n;
@@ -63,7 +66,12 @@ class EmitterTable {
   double totalFlux() const { return totalFlux_; }
   /// What is left of the number that picks the emitter is used for its first place: photons of one emitter are then as
   /// well spread as those of all.
-  EmittedPhoton sample(const EmissionNumbers& u) const;
+  [[gnu::always_inline]] EmittedPhoton sample(const EmissionNumbers& u) const {
+    const Choice choice = choose(cumulative_, guide_, u.pick);
+    const Emitter& e = emitters_[choice.index];
+    if (e.plain == kNone) return sample(choice, u.others);
+    return emitFromPlain(plainFaces_[e.plain], choice.rest, u.others);
+  }
   /// From a chosen emitter, whatever its guide; beta as if all photons came from it.
   EmittedPhoton sampleUnguided(std::size_t emitter, const EmissionPlace& u) const;
   /// How `rest` and `others` are dealt out for a chosen emitter.
@@ -96,6 +104,33 @@ class EmitterTable {
   }
 
  private:
+  /// A face without textures, in the form that photons are made from.
+  struct PlainFace {
+    std::array<Frame<float>, 2> frames;  // around the normals of front and back
+    Vec3f p0, e1, e2;
+    Rgb beta;
+    std::uint32_t triangle;
+    bool twoSided;
+  };
+  /// See emitFromTriangle().
+  [[gnu::always_inline]] static EmittedPhoton emitFromPlain(const PlainFace& f, double rest,
+                                                            const std::array<float, 3>& others) {
+    const EmissionPlace u = placeOnFace(f.twoSided, rest, others);
+    const Vec2f b = sampleTriangle(u.position);
+    const Frame<float>& frame = f.frames[f.twoSided && u.side < 0.5f ? 1 : 0];
+    return {Vec3d(f.p0) + Vec3d(f.e1) * static_cast<double>(b.x) + Vec3d(f.e2) * static_cast<double>(b.y),
+            frame.toWorld(sampleCosineHemisphere(u.direction)), f.beta, f.triangle, frame.n};
+  }
+  [[gnu::always_inline]] static EmissionPlace placeOnFace(bool twoSided, double rest,
+                                                          const std::array<float, 3>& others) {
+    if (!twoSided) return {0, {belowOne(rest), others[0]}, {others[1], others[2]}};
+    const double half = 2 * rest;
+    return {belowOne(rest), {belowOne(half < 1 ? half : half - 1), others[0]}, {others[1], others[2]}};
+  }
+  static float belowOne(double u) { return std::min(static_cast<float>(u), 1 - 0x1p-24f); }
+
+  EmittedPhoton sample(const Choice& choice, const std::array<float, 3>& others) const;
+  void addPlain();
   void addTriangle(std::uint32_t triangle);
   void addLight(std::uint32_t index);
   void addEnvironment();
@@ -114,6 +149,7 @@ class EmitterTable {
   double radius_ = 0;
   std::vector<Emitter> emitters_;
   std::vector<Face> faces_;
+  std::vector<PlainFace> plainFaces_;
   std::vector<EmissionGuide> guides_;
   std::vector<double> cumulative_;    // [i] = Σ flux of 0..i, divided by the total
   std::vector<std::uint32_t> guide_;  // guide_[k]: first i with cumulative_[i] > k/size
