@@ -16,10 +16,12 @@ struct ByHand {
   std::map<std::uint64_t, std::pair<float, std::uint32_t>> photon;  // luminance and first word, by texel
   std::vector<std::int64_t> statistics;
   std::uint64_t hits = 0, returns = 0;
+  bool odd = false;
 
   void hit(const PhotonHit& h) {
     sink.hit(h);
     ++hits;
+    odd = h.odd;
     const TexelMap::Entry& entry = map[h.hit.triangle];
     const TexelMap::Side& side = map.side(h.hit.back ? entry.back : entry.front);
     const Vec2f st = entry.st0 + entry.e1 * h.hit.b.x + entry.e2 * h.hit.b.y;
@@ -35,8 +37,9 @@ struct ByHand {
   void endPhoton() {
     sink.endPhoton();
     for (const auto& [texel, share] : photon) {
-      statistics[texel * kStatisticsChannels] += 1;
-      statistics[texel * kStatisticsChannels + 1] += roundUnits(share.first * share.first, share.second);
+      statistics[texel * kStatisticsChannels + kCount] += 1;
+      statistics[texel * kStatisticsChannels + kSquares] += roundUnits(share.first * share.first, share.second);
+      if (odd) statistics[texel * kStatisticsChannels + kOdd] += roundUnits(share.first, share.second >> 8);
     }
     photon.clear();
   }
@@ -56,7 +59,7 @@ TEST(DepositSink, APhotonCountsOnceInATexelWithItsWholeShareSquared) {
   DepositSink<false> sink(map, tallyLayout, directions, LightPart::all, tallies);
   ByHand byHand{sink, map, {}, std::vector<std::int64_t>(tallies.statistics().size()), 0, 0};
   Ledger ledger;
-  tracePhotons(PhotonScene(scene), {0, 2000}, 3, {}, byHand, ledger);
+  flyPhotons(PhotonScene(scene), {0, 2000}, 3, {}, byHand, ledger);
   sink.flush();
   EXPECT_GT(byHand.returns, 1000u);
   EXPECT_EQ(sink.sums().storedHits, byHand.hits);

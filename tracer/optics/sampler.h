@@ -82,6 +82,26 @@ class RandomSampler {
   std::uint64_t seed_, photon_;
 };
 
+/// Number of the set of points of a block.
+constexpr std::uint64_t sobolSet(std::uint32_t event, Stream stream) {
+  return std::uint64_t{event} << kStreamBits | static_cast<std::uint32_t>(stream);
+}
+/// What the sets of one half of the photons k·2^32 to (k + 1)·2^32 − 1 are scrambled by; `odd`: the odd ones.
+constexpr std::uint64_t sobolKey(std::uint64_t seed, std::uint64_t k, bool odd) {
+  return mix64(mix64(seed) + (k << 1 | static_cast<std::uint64_t>(odd)));
+}
+/// The place of a photon in the sets of its half, reversed.
+constexpr std::uint32_t sobolPlace(std::uint64_t photon) {
+  return reverseBits(static_cast<std::uint32_t>(photon) >> 1);
+}
+
+/// The emission of the block `words`. A word has too few bits to pick among many emitters; those below its last are a
+/// hash of it, as Owen's scramble would go on: the pick stays a stratified sequence, and uniform in all 53 bits.
+constexpr EmissionNumbers sobolEmission(const std::array<std::uint32_t, 4>& words, std::uint64_t key) {
+  return {toUnitDouble(words[0], static_cast<std::uint32_t>(mix64(~key ^ words[0]) >> 32)),
+          {toUnitFloat(words[1]), toUnitFloat(words[2]), toUnitFloat(words[3])}};
+}
+
 /// Photons of even and of odd index are two halves, independent of each other, so that their difference tells the error
 /// of their sum. Those of the photons k·2^32 to (k + 1)·2^32 − 1 of a block that are of one half are one point set,
 /// scrambled by a hash of (seed, event, stream, k, half): any 2^m photons of a half that begin at a multiple of 2^(m + 1)
@@ -89,29 +109,20 @@ class RandomSampler {
 class SobolSampler {
  public:
   SobolSampler(std::uint64_t seed, std::uint64_t photon)
-      : key_(mix64(mix64(seed) + (photon >> 32 << 1 | (photon & 1)))),
+      : key_(sobolKey(seed, photon >> 32, photon % 2 == 1)),
         photon_(photon),
-        reversed_(reverseBits(static_cast<std::uint32_t>(photon) >> 1)) {}
+        reversed_(sobolPlace(photon)) {}
   std::uint64_t photon() const { return photon_; }
 
   std::array<std::uint32_t, 4> words(std::uint32_t event, Stream stream) const {
-    return sobolOwen(reversed_, sobolSeeds(key_, std::uint64_t{event} << kStreamBits | static_cast<std::uint32_t>(stream)));
+    return sobolOwen(reversed_, sobolSeeds(key_, sobolSet(event, stream)));
   }
   std::array<float, 4> floats(std::uint32_t event, Stream stream) const {
     return detail::toUnitFloats(words(event, stream));
   }
-  EmissionNumbers emission() const {
-    const auto w = words(0, Stream::emission);
-    return {fine(w[0]), {toUnitFloat(w[1]), toUnitFloat(w[2]), toUnitFloat(w[3])}};
-  }
+  EmissionNumbers emission() const { return sobolEmission(words(0, Stream::emission), key_); }
 
  private:
-  /// A word has too few bits to pick among many emitters; those below its last are a hash of it, as Owen's scramble
-  /// would go on: the pick stays a stratified sequence, and uniform in all 53 bits.
-  double fine(std::uint32_t word) const {
-    return toUnitDouble(word, static_cast<std::uint32_t>(mix64(~key_ ^ word) >> 32));
-  }
-
   std::uint64_t key_, photon_;
   std::uint32_t reversed_;
 };

@@ -15,6 +15,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__SSSE3__)
+#include <tmmintrin.h>
+#endif
+
 namespace lucarne {
 
 /// Four words side by side: a vector extension of GCC and Clang, one register of any x86-64 and of ARM.
@@ -29,6 +33,20 @@ template <class Word>
   x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
   return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
+
+#if defined(__SSSE3__)
+/// The same by looking up half bytes, in a third of the steps.
+[[gnu::always_inline]] inline UInt32x4 reverseBits(UInt32x4 x) {
+  const __m128i half = _mm_set1_epi8(0x0f);
+  const __m128i high = _mm_setr_epi8(0x00, -0x80, 0x40, -0x40, 0x20, -0x60, 0x60, -0x20, 0x10, -0x70, 0x50, -0x30, 0x30,
+                                     -0x50, 0x70, -0x10);  // [v]: v's four bits turned round, in the high half
+  const __m128i low = _mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15);
+  const __m128i turned =
+      _mm_shuffle_epi8(std::bit_cast<__m128i>(x), _mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
+  return std::bit_cast<UInt32x4>(_mm_or_si128(_mm_shuffle_epi8(high, _mm_and_si128(turned, half)),
+                                              _mm_shuffle_epi8(low, _mm_and_si128(_mm_srli_epi16(turned, 4), half))));
+}
+#endif
 
 /// Nested uniform scramble of a reversed word: each bit is flipped or not as the bits below it and the seed say. The
 /// Laine-Karras hash (2011, "Stratified sampling for stochastic transparency") with the steps and constants of Vegdahl
@@ -84,12 +102,16 @@ struct SobolSeeds {
                    static_cast<std::uint32_t>(b >> 32)}};
 }
 
+/// Words of a point whose reversed words are `point`.
+[[gnu::always_inline]] inline std::array<std::uint32_t, 4> sobolScrambled(UInt32x4 point, UInt32x4 scramble) {
+  return std::bit_cast<std::array<std::uint32_t, 4>>(reverseBits(owenReversed(point, scramble)));
+}
+
 /// Words of the point of the set, uniform in [0, 2^32). The first 2^m points of a set, and any 2^m from a multiple of
 /// 2^m on, are a (3, m, 4)-net: of each dimension alone, and of 0 and 1 together, t is 0.
 [[gnu::always_inline]] inline std::array<std::uint32_t, 4> sobolOwen(std::uint32_t reversedIndex,
                                                                      const SobolSeeds& seeds) {
-  const UInt32x4 point = sobolReversed(owenReversed(reversedIndex, seeds.shuffle));
-  return std::bit_cast<std::array<std::uint32_t, 4>>(reverseBits(owenReversed(point, seeds.scramble)));
+  return sobolScrambled(sobolReversed(owenReversed(reversedIndex, seeds.shuffle)), seeds.scramble);
 }
 
 }  // namespace lucarne

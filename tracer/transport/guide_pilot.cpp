@@ -86,14 +86,17 @@ void tracePilot(const PhotonScene& scene, std::size_t emitter, IndexRange range,
   const std::uint64_t first = std::uint64_t{emitter} * options.photons * 2;
   tbb::parallel_for(tbb::blocked_range<std::uint64_t>(range.begin, range.end, 1024), [&](const auto& block) {
     const FlushDenormals mode;
+    PhotonNumberSeeds seeds(seed, (first + block.begin()) >> 32);
     for (std::uint64_t i = block.begin(); i < block.end(); ++i) {
       const PhotonSampler sampler(seed, first + i);
+      if ((first + i) >> 32 != seeds.k()) seeds = PhotonNumberSeeds(seed, (first + i) >> 32);
       const EmissionNumbers numbers = sampler.emission();
       const EmissionPlace place = scene.emitters().placeFor(emitter, numbers.pick, numbers.others);
       PilotSink sink = start;
       Ledger ledger;
-      PhotonPath<kAll, PilotSink> path(scene, sampler, limits, sink, ledger);
-      path.trace(scene.emitters().sampleUnguided(emitter, place));
+      PathLedger sums;
+      PhotonPath<kAll, PilotSink>(scene, {seeds, first + i}, limits, sink, ledger, sums)
+          .trace(scene.emitters().sampleUnguided(emitter, place));
       tell(place, costOf(ledger), sink);
     }
   });

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "tracer/optics/coat.h"
-#include "tracer/optics/sampler.h"
+#include "tracer/optics/photon_numbers.h"
 #include "tracer/optics/scattering.h"
 #include "tracer/transport/meet.h"
 #include "tracer/transport/path_ledger.h"
@@ -17,31 +17,39 @@ namespace lucarne {
 template <SceneFeatures features, class Sink>
 class PhotonPath {
  public:
-  PhotonPath(const PhotonScene& scene, const PhotonSampler& sampler, const TraceLimits& limits, Sink& sink,
-             Ledger& ledger)
-      : scene_(scene), surfaces_(scene.surfaces()), sampler_(sampler), limits_(limits), sink_(sink), ledger_(ledger) {}
+  /// `sums` goes into the ledger when the caller wants it.
+  PhotonPath(const PhotonScene& scene, const PhotonNumbers& numbers, const TraceLimits& limits, Sink& sink,
+             Ledger& ledger, PathLedger& sums)
+      : scene_(scene),
+        surfaces_(scene.surfaces()),
+        numbers_(numbers),
+        limits_(limits),
+        sink_(sink),
+        ledger_(ledger),
+        sums_(sums) {}
 
-  void trace() { trace(scene_.emitters().sample(sampler_.emission())); }
-  void trace(const EmittedPhoton& photon) {
+  [[gnu::always_inline]] void trace() { trace(scene_.emitters().sample(numbers_.emission())); }
+  [[gnu::always_inline]] void trace(const EmittedPhoton& photon) {
     emit(photon);
-    for (std::uint32_t event = 1; step(event); ++event) {
+    std::uint32_t event = 1;
+    for (; step(event); ++event) {
       if (event >= limits_.depth) {
         ledger_.cutOff += fixed_;
         ++ledger_.cutOffPaths;
         break;
       }
     }
-    path_.addTo(ledger_);
-    ++ledger_.photons;
+    ledger_.rays += event;
+    sums_.endPhoton(ledger_);
     sink_.endPhoton();
   }
 
  private:
-  using Words = std::array<std::uint32_t, 4>;
+  using Words = PhotonNumbers::Words;
 
   [[gnu::always_inline]] void emit(const EmittedPhoton& photon) {
     setBeta(sane(photon.beta));
-    ledger_.emitted += fixed_;
+    sums_.emitted += fixed_;
     reference_ = maxComponent(beta_);
     from_ = photon.triangle;
     origin_ = from_ == kNone ? Vec3f(photon.position)
@@ -51,22 +59,22 @@ class PhotonPath {
 
   /// One segment and what happens at its end. False when the path is over.
   [[gnu::always_inline]] bool step(std::uint32_t event) {
-    ++ledger_.rays;
     Hit hit;
     Words words;
     if (!meet(hit, event, words)) {
-      ledger_.escaped += fixed_;
+      sums_.escaped += fixed_;
       return false;
     }
     ++ledger_.hits;
     if constexpr (features.transmission) attenuate(hit);
     if (isBlackBack(scene_, hit)) [[unlikely]] {
-      path_.absorbed += fixed_;
+      sums_.absorbed += fixed_;
       return false;
     }
     const Vec3f wi = -direction_, n = hit.back ? -hit.n : hit.n;
     const Vec3f ns = scene_.shadingNormal(hit, n);
-    sink_.hit(PhotonHit{hit, event, sampler_.photon() % 2 == 1, words, beta_, wi, n, ns});
+    flat_ = !features.normalMaps && !hit.smooth;
+    sink_.hit(PhotonHit{hit, event, numbers_.odd(), words, beta_, wi, n, ns});
     if (!scatter(hit, words, wi, n, ns)) return false;
     from_ = hit.triangle;
     origin_ = RayCaster::leave(hit.position, features.transmission && dot(direction_, n) < 0 ? -n : n, hit.clearance);
@@ -79,11 +87,11 @@ class PhotonPath {
         scene_, {origin_, direction_, from_}, ledger_.repeatedRays,
         [&](std::uint32_t triangle) {
           if constexpr (requires { sink_.prefetch(triangle); }) sink_.prefetch(triangle);
-          words = sampler_.words(event, Stream::scatter);
+          words = numbers_.scatter(event);
         },
         [&](const Hit& h, std::uint32_t layer) {
           return goesThroughByChance(surfaces_, h, layer, [&](std::uint32_t block) {
-            return sampler_.words(event + (block << 16), Stream::coverage);
+            return numbers_.sampler().words(event + (block << 16), Stream::coverage);
           });
         },
         hit);
@@ -96,7 +104,7 @@ class PhotonPath {
     const double metres = length(hit.position - Vec3d(origin_)) * scene_.scene().frame.scale;
     const FixedRgb before = fixed_;
     setBeta(beta_ * surfaces_.attenuation(medium).over(metres));
-    path_.absorbed += before - fixed_;
+    sums_.absorbed += before - fixed_;
   }
 
   [[gnu::always_inline]] bool scatter(const Hit& hit, const Words& words, Vec3f wi, Vec3f n, Vec3f ns) {
@@ -120,7 +128,7 @@ class PhotonPath {
                                              Vec3f n) {
     const Rgb onward = beta_ * bsdf.diffuse;
     const FixedRgb fixedOnward(onward);
-    path_.absorbed += fixed_ - fixedOnward;
+    sums_.absorbed += fixed_ - fixedOnward;
     // Unit but for the rounding of this one hit: nothing of it is handed on from bounce to bounce.
     direction_ = frame.toWorld(sampleLambert({toUnitFloat(words[1]), toUnitFloat(words[2])}));
     return goOn(onward, fixedOnward, toUnitFloat(words[3]), wi, n, frame.n);
@@ -151,15 +159,15 @@ class PhotonPath {
               Vec3f wi, Vec3f n) {
     const Rgb onward = s ? sane(beta_ * s->weight) : Rgb{};
     const FixedRgb fixedOnward(onward);
-    path_.absorbed += fixed_ - fixedOnward;
-    path_.error += FixedRgb(sane(beta_ * meanWeight)) - fixedOnward;
+    sums_.absorbed += fixed_ - fixedOnward;
+    sums_.error += FixedRgb(sane(beta_ * meanWeight)) - fixedOnward;
     if (!s) return false;
     direction_ = normalize(frame.toWorld(s->wo));
     return goOn(onward, fixedOnward, toUnitFloat(words[3]), wi, n, frame.n);
   }
 
   [[gnu::always_inline]] bool goOn(Rgb onward, const FixedRgb& fixedOnward, float u, Vec3f wi, Vec3f n, Vec3f ns) {
-    if (ns == n) return roulette(onward, fixedOnward, u);
+    if (flat_ || ns == n) return roulette(onward, fixedOnward, u);
     float correction = adjointCorrection(wi, direction_, n, ns);
     if (correction > kLargestShadingCorrection) {
       correction = kLargestShadingCorrection;
@@ -167,7 +175,7 @@ class PhotonPath {
     }
     const Rgb corrected = onward * correction;
     const FixedRgb fixedCorrected(corrected);
-    path_.shadingNormal += fixedOnward - fixedCorrected;
+    sums_.shadingNormal += fixedOnward - fixedCorrected;
     return roulette(corrected, fixedCorrected, u);
   }
 
@@ -175,11 +183,11 @@ class PhotonPath {
   [[gnu::always_inline]] bool roulette(Rgb onward, const FixedRgb& fixedOnward, float u) {
     const float left = maxComponent(onward);
     if (!(u * reference_ < left)) {  // p = min(1, left / reference)
-      path_.roulette += fixedOnward;
+      sums_.roulette += fixedOnward;
       return false;
     }
     setBeta(sane(onward * std::max(1.f, reference_ / left)));
-    path_.roulette += fixedOnward - fixed_;
+    sums_.roulette += fixedOnward - fixed_;
     return true;
   }
 
@@ -198,17 +206,18 @@ class PhotonPath {
 
   const PhotonScene& scene_;
   const SurfaceTable& surfaces_;
-  const PhotonSampler& sampler_;
+  const PhotonNumbers numbers_;
   const TraceLimits& limits_;
   Sink& sink_;
   Ledger& ledger_;
-  PathLedger path_;
+  PathLedger& sums_;
   Rgb beta_{};
   FixedRgb fixed_;  // beta_ in fixed point
   float reference_ = 1;
   Vec3f origin_{}, direction_{};
   std::uint32_t from_ = kNone;
   std::uint32_t medium_ = kNone;  // material of the volume that the photon is in
+  bool flat_ = false;             // where it is, the shading normal is known to be the geometric one
 };
 
 }  // namespace lucarne

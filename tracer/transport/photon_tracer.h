@@ -16,9 +16,14 @@ void tracePhotons(const PhotonScene& scene, IndexRange range, const PhotonSeed& 
                   Ledger& ledger, std::size_t variant) {
   if (scene.emitters().empty()) return;
   withPhotonVariant(variant, [&]<SceneFeatures features>() {
-    for (std::uint64_t i = range.begin; i < range.end; ++i) {
-      const PhotonSampler sampler(seed, i);
-      PhotonPath<features, Sink>(scene, sampler, limits, sink, ledger).trace();
+    while (range.begin < range.end) {
+      const std::uint64_t left = 0xffffffffu - (range.begin & 0xffffffffu);  // of the block, behind the first
+      const std::uint64_t end = range.begin + (left < range.size() - 1 ? left + 1 : range.size());
+      const PhotonNumberSeeds seeds(seed, range.begin >> 32);
+      PathLedger sums;
+      for (; range.begin < end; ++range.begin)
+        PhotonPath<features, Sink>(scene, {seeds, range.begin}, limits, sink, ledger, sums).trace();
+      sums.addTo(ledger);
     }
   });
 }
