@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tests/support/scene_builder.h"
+#include "tracer/transport/any_sink.h"
 
 namespace lucarne {
 namespace {

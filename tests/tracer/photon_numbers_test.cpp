@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/scene_builder.h"
-#include "tracer/transport/photon_tracer.h"
+#include "tracer/transport/any_sink.h"
 
 namespace lucarne {
 namespace {
@@ -50,7 +50,7 @@ TEST(PhotonNumbers, ARangeAcrossTheEndOfABlockIsItsTwoPieces) {
   const Scene scene = builder.build();
   const PhotonScene photons(scene);
   const auto trace = [&](IndexRange range, FirstHits& sink, Ledger& ledger) {
-    tracePhotons(photons, range, PhotonSeed(3, SamplerKind::sobol), {}, sink, ledger);
+    flyPhotons(photons, range, PhotonSeed(3, SamplerKind::sobol), {}, sink, ledger);
   };
   FirstHits whole, pieces;
   Ledger wholeLedger, piecesLedger;
@@ -70,7 +70,7 @@ TEST(PhotonNumbers, TheLastPhotonsOfAllAreTraced) {
   FirstHits sink;
   Ledger ledger;
   const std::uint64_t last = ~std::uint64_t{0};
-  tracePhotons(photons, {last - 5, last}, PhotonSeed(3, SamplerKind::sobol), {}, sink, ledger);
+  flyPhotons(photons, {last - 5, last}, PhotonSeed(3, SamplerKind::sobol), {}, sink, ledger);
   EXPECT_EQ(ledger.photons, 5u);
 }
 
