@@ -7,12 +7,12 @@
 #endif
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
 #include "tracer/scene/scene_cleanup.h"
+#include "tracer/transport/clearance.h"
 
 namespace lucarne {
 namespace {
@@ -42,50 +42,6 @@ void castRay(RTCScene scene, RTCRayHit& ray) {
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &ray);
 #endif
-}
-
-/// For each corner position the longest edge that ends there. A table by hash: positions that share a place only make
-/// an edge longer.
-class LongestEdges {
- public:
-  explicit LongestEdges(const Scene& scene) : table_(std::bit_ceil(2 * scene.triangles.size() + 1)) {
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-      const float edge = longestEdge(scene, i);
-      for (int k = 0; k < 3; ++k) {
-        float& longest = table_[place(scene.corner(i, k))];
-        longest = std::max(longest, edge);
-      }
-    }
-  }
-  float at(Vec3f corner) const { return table_[place(corner)]; }
-
- private:
-  static float longestEdge(const Scene& scene, std::uint32_t i) {
-    const Vec3f a = scene.corner(i, 0), b = scene.corner(i, 1), c = scene.corner(i, 2);
-    return std::max({length(b - a), length(c - b), length(a - c)});
-  }
-  std::size_t place(Vec3f p) const {
-    std::uint64_t h = 0;
-    for (const float x : {p.x, p.y, p.z}) h = (h ^ std::bit_cast<std::uint32_t>(x + 0.f)) * 0x9E3779B97F4A7C15u;
-    return (h >> 20) & (table_.size() - 1);
-  }
-  std::vector<float> table_;
-};
-
-/// How far off a triangle a ray must start that leaves it.
-///
-/// Its origin is rounded to float: off by at most 2^-25 of each coordinate, √3·2^-25·M along the normal, with M the
-/// largest coordinate. Embree finds the side of a plane from dot(v0 − origin, n), with an error of about 3·2^-24 of the
-/// distance to v0: at most the longest edge L of the triangles around, for those that lie in the same plane. Hence
-/// 2^-24·(2M + 3L); twice that is used.
-float clearanceOf(const Scene& scene, std::uint32_t i, const LongestEdges& edges) {
-  float largest = 0, longest = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3f p = scene.corner(i, k);
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    longest = std::max(longest, edges.at(p));
-  }
-  return 0x1p-24f * (4 * largest + 6 * longest);
 }
 
 /// The barycentric coordinate that keeps `distance` from every edge: distance / smallest height, which is twice the
@@ -128,13 +84,13 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
     *vertices++ = p.z;
   }
   triangles_.reserve(n);
-  const LongestEdges edges(scene);
+  const Clearances clearances(scene);
   for (std::uint32_t i = 0; i < n; ++i) {
     const bool skipped = isSkipped(scene, i);  // three times one corner: no ray meets it
     for (const std::uint32_t v : scene.triangles[i].v) *indices++ = skipped ? scene.triangles[i].v[0] : v;
     const Vec3d scaled = scene.scaledNormal(i);
     const Vec3f e1 = scene.corner(i, 1) - scene.corner(i, 0), e2 = scene.corner(i, 2) - scene.corner(i, 0);
-    const float clearance = clearanceOf(scene, i, edges);
+    const float clearance = clearances.of(i);
     TriangleData t{scene.corner(i, 0), e1, e2, Vec3f(normalize(scaled)), 0, 0, 0, clearance};
     t.material = scene.triangles[i].material & 0x7fffffffu;
     t.smooth = !scene.smooth.empty() && scene.smooth[i] != 0;

@@ -58,7 +58,8 @@ class RayCaster {
   /// meets.
   bool startsOn(const Hit& hit, Vec3f origin, std::uint32_t from) const {
     const float left = from == kNone ? 0.f : triangles_[from].clearance;
-    return std::abs(dot(Vec3d(hit.n), hit.position - Vec3d(origin))) <= 2 * static_cast<double>(std::max(left, hit.clearance));
+    return std::abs(dot(Vec3d(hit.n), hit.position - Vec3d(origin))) <=
+           2 * static_cast<double>(std::max(left, hit.clearance));
   }
 
   /// Asks for what intersect() will read.
@@ -66,8 +67,8 @@ class RayCaster {
   /// Where a ray that is known to meet the triangle does so.
   Hit intersect(std::uint32_t triangle, Vec3f origin, Vec3f direction) const;
 
-  /// A point just off the triangle at `position` on it, on the side of `n`: far enough that neither it nor a neighbour in
-  /// its plane is met again, and no farther (see clearanceOf in ray_caster.cpp).
+  /// A point just off the triangle at `position` on it, on the side of `n`: far enough that neither it nor a neighbour
+  /// in its plane is met again, and no farther (see clearance.h).
   static Vec3f leave(Vec3d position, Vec3f n, float clearance) {
     return Vec3f(position + Vec3d(n) * static_cast<double>(clearance));
   }
