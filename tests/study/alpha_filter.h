@@ -1,5 +1,6 @@
 // An Embree scene whose intersection filter lets light through masked and blended surfaces: one ray finds the first
-// triangle that light meets. For alpha_study, which weighs it against RayCaster::beyond().
+// triangle that light meets. Triangles without holes lie in a geometry without filter, which the tracer does not do.
+// For alpha_study.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -31,18 +32,17 @@ inline bool goesThrough(const SurfaceTable& surfaces, const Hit& hit, std::uint6
   return coverage <= 0 || unitHash(key + hit.triangle * 0xD1342543DE82EF95u) >= coverage;
 }
 
-/// Triangles without holes lie in a geometry without filter, unless `everywhere`. The triangle is what it gives; places
-/// are recomputed in double by RayCaster, in the filter too.
+/// The triangle is what it gives; places are recomputed in double by RayCaster, in the filter too.
 class FilterCaster {
  public:
-  FilterCaster(const PhotonScene& scene, bool everywhere)
+  explicit FilterCaster(const PhotonScene& scene)
       : photonScene_(scene),
         device_(rtcNewDevice(("isa=" + scene.rayCaster().isa()).c_str())),
         scene_(rtcNewScene(device_)) {
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     for (std::uint32_t i = 0; i < scene.scene().triangles.size(); ++i)
-      triangles_[everywhere || scene.surfaces().hasHoles(scene.scene().triangles[i].material)].push_back(i);
+      triangles_[scene.surfaces().hasHoles(scene.scene().triangles[i].material)].push_back(i);
     for (const bool filtered : {false, true}) attach(filtered);
     rtcCommitScene(scene_);
   }
@@ -103,11 +103,9 @@ class FilterCaster {
     const PhotonScene& scene = q.caster.photonScene_;
     const std::uint32_t triangle = q.caster.triangles_[1][RTCHitN_primID(arguments->hit, arguments->N, 0)];
     ++q.asked;
-    const bool holes = scene.surfaces().hasHoles(scene.scene().triangles[triangle].material);
     if (triangle == q.ray.start.from ||
-        (holes &&
-         goesThrough(scene.surfaces(), scene.rayCaster().intersect(triangle, q.ray.start.origin, q.ray.start.direction),
-                     q.ray.key)))
+        goesThrough(scene.surfaces(), scene.rayCaster().intersect(triangle, q.ray.start.origin, q.ray.start.direction),
+                    q.ray.key))
       arguments->valid[0] = 0;
   }
 

@@ -1,11 +1,12 @@
-// Light through masked and blended surfaces: go on behind each hit (as the tracer does), or let Embree ask at each hit?
+// Light through masked and blended surfaces: go on behind each hit, or let Embree ask at each hit (as the tracer does)?
 //
 //   alpha_study [ROUNDS]
 //
-// continuation  meetSurface(): the nearest hit; where light goes through, a new ray from behind it.
-// filter        an Embree intersection filter on the triangles whose materials have holes, which says by itself whether
-//               light goes through; one ray. Triangles without holes lie in a geometry without filter.
-// filter all    the same filter on all triangles.
+// continuation  the nearest hit; where light goes through, a new ray from behind it.
+// tracer        meetSurface(): an Embree intersection filter on all triangles, which says by itself whether light goes
+//               through; one ray.
+// filter        the same filter, only on the triangles whose materials have holes; the others lie in a geometry
+// without.
 //
 // The number of a blend is a hash of (photon, event, triangle), so that all ways answer alike in whatever order they
 // ask. All trace the same photons, diffuse paths with nothing else around, in turns on one thread.
@@ -15,7 +16,7 @@
 #include <functional>
 
 #include "base/float_mode.h"
-#include "tests/study/alpha_filter.h"
+#include "tests/study/alpha_continuation.h"
 #include "tests/support/scene_builder.h"
 #include "tracer/optics/warp.h"
 
@@ -26,16 +27,10 @@ namespace {
 
 using Meet = std::function<bool(const Ray&, Hit&)>;
 
-/// `through(hit)` is told what light goes through.
-template <class Through>
-bool meetByContinuation(const PhotonScene& scene, const Ray& ray, Hit& hit, Through&& through) {
+bool meetByTracer(const PhotonScene& scene, const Ray& ray, Hit& hit) {
   std::uint64_t repeats = 0;
   const auto found = [](std::uint32_t) {};
-  const auto ask = [&](const Hit& h, std::uint32_t) {
-    if (!goesThrough(scene.surfaces(), h, ray.key)) return false;
-    through(h);
-    return true;
-  };
+  const auto ask = [&](const Hit& h) { return goesThrough(scene.surfaces(), h, ray.key); };
   return scene.surfaces().features().holes ? meetSurface<true>(scene, ray.start, repeats, found, ask, hit)
                                            : meetSurface<false>(scene, ray.start, repeats, found, ask, hit);
 }
@@ -143,7 +138,8 @@ void compare(const PhotonScene& scene, const FilterCaster& caster, std::uint64_t
     ++segments;
     layers += passed.size();
     if (met == answered && (!met || hit.triangle == answer.triangle)) return met;
-    // beyond() passes over triangles that touch the one that it leaves; equal distances may be told apart either way.
+    // Continuation passes over triangles that touch the one that it leaves; equal distances may be told apart either
+    // way.
     const auto touches = [&](const Hit& h) {
       const double far = 4 * static_cast<double>(std::max(h.clearance, answer.clearance));
       return answered && h.triangle != answer.triangle &&
@@ -198,17 +194,14 @@ void race(const PhotonScene& scene, std::vector<Way>& ways, std::uint64_t round)
 
 void study(const char* name, const Scene& made, std::uint64_t rounds) {
   const PhotonScene scene(made);
-  const FilterCaster whereNeeded(scene, false), everywhere(scene, true);
+  const FilterCaster whereNeeded(scene);
   std::uint64_t asked = 0;
-  const auto filtered = [&](const FilterCaster& caster) {
-    return [&](const Ray& ray, Hit& hit) { return meetByFilter(scene, caster, ray, hit, asked); };
-  };
+  const auto filtered = [&](const Ray& ray, Hit& hit) { return meetByFilter(scene, whereNeeded, ray, hit, asked); };
+  const auto traced = [&](const Ray& ray, Hit& hit) { return meetByTracer(scene, ray, hit); };
   const auto continued = [&](const Ray& ray, Hit& hit) {
     return meetByContinuation(scene, ray, hit, [](const Hit&) {});
   };
-  std::vector<Way> ways{{"continuation", continued, {}, {}},
-                        {"filter", filtered(whereNeeded), {}, {}},
-                        {"filter all", filtered(everywhere), {}, {}}};
+  std::vector<Way> ways{{"continuation", continued, {}, {}}, {"tracer", traced, {}, {}}, {"filter", filtered, {}, {}}};
   std::printf("\n%s: %zu triangles\n", name, made.triangles.size());
   compare(scene, whereNeeded, 20 * kPhotons);  // warms the caches, too
   for (std::uint64_t round = 0; round < rounds; ++round) race(scene, ways, round);

@@ -109,6 +109,68 @@ TEST(AlphaTransport, FiftyLayersThinLightLikeAGeometricSeries) {
   }
 }
 
+/// A closed room with a decal of 3 × 3 m in the very plane of its floor.
+Scene roomWithADecal(AlphaMode mode, float alpha, bool textured, bool doubleSided) {
+  SceneBuilder b;
+  b.addBox({-2, 0, -2}, {2, 3, 2}, b.addDiffuse(Rgb(0.7f)), true);
+  Material m = screenMaterial(mode, alpha);
+  m.baseColor = Rgb(0.5f);
+  m.doubleSided = doubleSided;
+  const auto decal = b.addMaterial(m);
+  test::addPlate(b, 0, 1.5, decal);
+  b.addLight(test::bulbLight({0.3, 2, 0.2}, Rgb(100.f)));
+  Scene scene = b.build();
+  if (textured) scene.materials[decal].baseColorTexture = test::addTexture(scene, 8, maskTexel, true);
+  return scene;
+}
+
+TEST(AlphaTransport, DecalsInTheVeryPlaneOfAFloorLoseNoLight) {
+  for (const bool doubleSided : {false, true}) {
+    for (const Scene& scene : {roomWithADecal(AlphaMode::mask, 1, true, doubleSided),
+                               roomWithADecal(AlphaMode::blend, 0.4f, false, doubleSided)}) {
+      std::uint64_t met = 0;
+      const auto count = [&](const PhotonHit& h) { return ++met, h.hit.material; };
+      FluxMeter meter(2, count);
+      const Ledger l = test::fly(PhotonScene(scene), 50'000, meter);
+      test::expectBalance(l);
+      test::expectNothingEscapes(l);
+      EXPECT_EQ(l.hits, met) << "light ended at a back";
+      EXPECT_GT(meter[1].sum, 0) << "the decal is there";
+    }
+  }
+}
+
+/// What each photon of a sun meets first of a floor (material 0), a veil over it (1) and more veils over that (2).
+std::vector<std::uint32_t> metFirst(int moreVeils) {
+  SceneBuilder b;
+  test::addPlate(b, 0, 1, b.addDiffuse(Rgb(0.f)));
+  test::addPlate(b, 0.5, 1, b.addMaterial(screenMaterial(AlphaMode::blend, 0.3f)));
+  const auto more = b.addMaterial(screenMaterial(AlphaMode::blend, 0.1f));
+  b.addTriangle({1, 1, 1}, {1, 1, 0.99}, {0.99, 1, 1}, 0);  // the scene's box is the same for all
+  for (int i = 0; i < moreVeils; ++i) test::addPlate(b, 0.9 - 0.05 * i, 1, more);
+  b.addLight(test::sunLight({0, -1, 0}, Rgb(500.f)));
+  const Scene scene = b.build();
+  struct Recorder {
+    std::vector<std::uint32_t> met{kNone};
+    void hit(const PhotonHit& h) { met.back() = h.hit.material; }
+    void endPhoton() { met.push_back(kNone); }
+  } recorder;
+  test::fly(PhotonScene(scene), 20'000, recorder);
+  return recorder.met;
+}
+
+// The number of a blend is one of the surface, not of how many a photon went through before.
+TEST(AlphaTransport, WhatAVeilDoesToAPhotonDoesNotDependOnOtherVeils) {
+  const std::vector<std::uint32_t> alone = metFirst(0), amongOthers = metFirst(5);
+  std::size_t different = 0, caught = 0;
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    caught += amongOthers[i] == 1;
+    different += amongOthers[i] != 2 && amongOthers[i] != alone[i];
+  }
+  EXPECT_GT(caught, 500u);
+  EXPECT_EQ(different, 0u);
+}
+
 /// A painted sky: an unlit box whose fronts look inward, with a grey floor in it.
 Scene paintedSky(bool doubleSided) {
   SceneBuilder b;

@@ -1,6 +1,9 @@
 #include "tracer/transport/path_tracer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace lucarne {
 namespace {
@@ -11,6 +14,27 @@ float misWeight(double own, double other) { return own > 0 ? static_cast<float>(
 float clampedReception(Vec3f wi, Vec3f n, Vec3f ns) {
   return ns == n ? 1.f : std::min(shadingReception(wi, n, ns), kLargestShadingCorrection);
 }
+
+/// What a shadow ray goes through that takes a part of its light. Each triangle counts once, however often it is asked
+/// about, and in the order of their numbers.
+class Veils {
+ public:
+  bool goThrough(std::uint32_t triangle, float coverage) {
+    if (coverage > 0 && coverage < 1) open_.emplace_back(triangle, 1 - coverage);
+    return coverage < 1;
+  }
+  float open() {
+    std::sort(open_.begin(), open_.end());
+    const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+    open_.erase(std::unique(open_.begin(), open_.end(), same), open_.end());
+    float product = 1;
+    for (const auto& veil : open_) product *= veil.second;
+    return product;
+  }
+
+ private:
+  std::vector<std::pair<std::uint32_t, float>> open_;  // by triangle
+};
 
 }  // namespace
 
@@ -89,19 +113,17 @@ Rgb PathTracer::visibility(const RayStart& ray, const LightSample& light, std::u
     if (light.triangle != kNone) return dot(hit.position - light.target, Vec3d(light.normal)) > touching;
     return length(hit.position - Vec3d(ray.origin)) < distance * (1 - 0x1p-20) - 0x1p-20;
   };
-  float open = 1;
+  Veils veils;
   std::uint64_t repeats = 0;
   Hit hit;
   const bool met = meetSurface<true>(
       scene_, ray, repeats, [](std::uint32_t) {},
-      [&](const Hit& h, std::uint32_t) {
-        if (!within(h)) return false;
-        open *= 1 - scene_.surfaces().coverage(placeOf(h), h.back);
-        return open > 0;
+      [&](const Hit& h) {
+        return within(h) && veils.goThrough(h.triangle, scene_.surfaces().coverage(placeOf(h), h.back));
       },
       hit);
   if (met && within(hit)) return {};
-  return transmittance(medium, finite ? distance : 0) * open;
+  return transmittance(medium, finite ? distance : 0) * veils.open();
 }
 
 std::optional<LightSample> PathTracer::sampleLight(Source source, Vec3d from, std::uint32_t event,
@@ -160,11 +182,7 @@ std::optional<Hit> PathTracer::advance(Walk& walk, std::uint32_t event, const Ph
   Hit hit;
   const bool met = meetSurface<true>(
       scene_, walk.ray, repeats, [](std::uint32_t) {},
-      [&](const Hit& h, std::uint32_t layer) {
-        return goesThroughByChance(scene_.surfaces(), h, layer, [&](std::uint32_t block) {
-          return sampler.words(event + (block << 16), Stream::coverage);
-        });
-      },
+      [&](const Hit& h) { return goesThroughByChance(scene_.surfaces(), h, sampler, event); },
       hit);
   if (!met) {
     seen += walk.throughput * sky(walk);

@@ -89,11 +89,7 @@ class PhotonPath {
           if constexpr (requires { sink_.prefetch(triangle); }) sink_.prefetch(triangle);
           words = numbers_.scatter(event);
         },
-        [&](const Hit& h, std::uint32_t layer) {
-          return goesThroughByChance(surfaces_, h, layer, [&](std::uint32_t block) {
-            return numbers_.sampler().words(event + (block << 16), Stream::coverage);
-          });
-        },
+        [&](const Hit& h) { return goesThroughByChance(surfaces_, h, numbers_.sampler(), event); },
         hit);
   }
 

@@ -3,7 +3,7 @@
 namespace lucarne {
 
 PhotonScene::PhotonScene(const Scene& scene, const RayCasterOptions& options, const Environment* environment)
-    : scene_(scene), surfaces_(scene), emitters_(scene, surfaces_, environment), rayCaster_(scene, options) {
+    : scene_(scene), surfaces_(scene), emitters_(scene, surfaces_, environment), rayCaster_(scene, options, &surfaces_) {
   if (std::none_of(scene.smooth.begin(), scene.smooth.end(), [](std::uint8_t s) { return s != 0; })) return;
   cornerNormals_.reserve(scene.triangles.size());
   for (const Triangle& t : scene.triangles)

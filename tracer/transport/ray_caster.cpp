@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "tracer/optics/surface.h"
 #include "tracer/scene/scene_cleanup.h"
 #include "tracer/transport/clearance.h"
 
@@ -34,6 +35,24 @@ std::string defaultIsa() {
               "Embree failed while " + what + " (error " + std::to_string(static_cast<int>(code)) + ")");
 }
 
+RTCRayHit rayHit(Vec3f origin, Vec3f direction, float tnear) {
+  RTCRayHit r;
+  r.ray.org_x = origin.x;
+  r.ray.org_y = origin.y;
+  r.ray.org_z = origin.z;
+  r.ray.dir_x = direction.x;
+  r.ray.dir_y = direction.y;
+  r.ray.dir_z = direction.z;
+  r.ray.tnear = tnear;
+  r.ray.tfar = std::numeric_limits<float>::infinity();
+  r.ray.time = 0;
+  r.ray.mask = 0xffffffffu;
+  r.ray.flags = 0;
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return r;
+}
+
 void castRay(RTCScene scene, RTCRayHit& ray) {
 #if RTC_VERSION_MAJOR >= 4
   rtcIntersect1(scene, &ray);
@@ -51,11 +70,24 @@ float insetOf(Vec3f e1, Vec3f e2, double twiceArea, double distance) {
   return static_cast<float>(std::min(distance * longest, 0.25 * twiceArea) / std::max(twiceArea, 1e-300));
 }
 
+#if RTC_VERSION_MAJOR >= 4
+using EmbreeContext = RTCRayQueryContext;
+constexpr RTCSceneFlags kRaysHaveFilters = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+#else
+using EmbreeContext = RTCIntersectContext;
+constexpr RTCSceneFlags kRaysHaveFilters = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
+
+RTCSceneFlags sceneFlags(bool robust, bool filters) {
+  return static_cast<RTCSceneFlags>((robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE) |
+                                    (filters ? kRaysHaveFilters : RTC_SCENE_FLAG_NONE));
+}
+
 }  // namespace
 
-RayCaster::RayCaster(const Scene& scene, const RayCasterOptions& options)
+RayCaster::RayCaster(const Scene& scene, const RayCasterOptions& options, const SurfaceTable* surfaces)
     : isa_(options.isa.empty() ? defaultIsa() : options.isa) {
-  build(scene, options);
+  build(scene, options, surfaces);
   description_ = std::string("Embree ") + RTC_VERSION_STRING + (isa_.empty() ? "" : ", " + isa_) +
                  (options.robust ? ", robust" : ", fast");
 }
@@ -65,12 +97,13 @@ RayCaster::~RayCaster() {
   if (device_ != nullptr) rtcReleaseDevice(device_);
 }
 
-void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
+void RayCaster::build(const Scene& scene, const RayCasterOptions& options, const SurfaceTable* surfaces) {
   device_ = rtcNewDevice(isa_.empty() ? nullptr : ("isa=" + isa_).c_str());
   if (device_ == nullptr) failWith(nullptr, "starting with isa=" + isa_);
   embreeScene_ = rtcNewScene(device_);
   rtcSetSceneBuildQuality(embreeScene_, RTC_BUILD_QUALITY_MEDIUM);
-  rtcSetSceneFlags(embreeScene_, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  anyHoles_ = surfaces != nullptr && surfaces->features().holes;
+  rtcSetSceneFlags(embreeScene_, sceneFlags(options.robust, anyHoles_));
   const std::size_t n = scene.triangles.size();
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -91,8 +124,9 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
     const Vec3d scaled = scene.scaledNormal(i);
     const Vec3f e1 = scene.corner(i, 1) - scene.corner(i, 0), e2 = scene.corner(i, 2) - scene.corner(i, 0);
     const float clearance = clearances.of(i);
-    TriangleData t{scene.corner(i, 0), e1, e2, Vec3f(normalize(scaled)), 0, 0, 0, clearance};
-    t.material = scene.triangles[i].material & 0x7fffffffu;
+    TriangleData t{scene.corner(i, 0), e1, e2, Vec3f(normalize(scaled)), 0, 0, 0, 0, clearance};
+    t.material = scene.triangles[i].material & 0x3fffffffu;
+    t.holes = surfaces != nullptr && surfaces->hasHoles(scene.triangles[i].material);
     t.smooth = !scene.smooth.empty() && scene.smooth[i] != 0;
     t.inset = insetOf(e1, e2, length(scaled), static_cast<double>(clearance));
     triangles_.push_back(t);
@@ -104,79 +138,109 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options) {
   if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) failWith(device_, "building the ray tracing structure");
 }
 
-std::uint32_t RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const {
-  return cast(origin, direction, 0, from, repeats);
+/// A ray on its way through Embree.
+struct RayCaster::Question {
+  EmbreeContext context;  // first: Embree hands it to the filter
+  const RayCaster& caster;
+  Vec3f origin, direction;
+  std::uint32_t from;
+  const HoleQuestion& holes;
+};
+
+void RayCaster::filter(const RTCFilterFunctionNArguments* arguments) {
+  const Question& q = *reinterpret_cast<const Question*>(arguments->context);
+  const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+  const bool passes = triangle == q.from || (q.caster.triangles_[triangle].holes != 0 &&
+                                             q.holes.goesThrough(q.caster.intersect(triangle, q.origin, q.direction)));
+  if (passes) arguments->valid[0] = 0;
 }
 
-std::uint32_t RayCaster::cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from,
-                              std::uint64_t& repeats) const {
-  RTCRayHit ray;
-  ray.ray.org_x = origin.x;
-  ray.ray.org_y = origin.y;
-  ray.ray.org_z = origin.z;
-  ray.ray.dir_x = direction.x;
-  ray.ray.dir_y = direction.y;
-  ray.ray.dir_z = direction.z;
-  ray.ray.tnear = tnear;
-  ray.ray.time = 0;
-  ray.ray.mask = 0xffffffffu;
-  ray.ray.flags = 0;
+std::uint32_t RayCaster::castThroughHoles(Question& question, float tnear) const {
+  RTCRayHit ray = rayHit(question.origin, question.direction, tnear);
+#if RTC_VERSION_MAJOR >= 4
+  rtcInitRayQueryContext(&question.context);
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &question.context;
+  arguments.filter = &RayCaster::filter;
+  arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+  rtcIntersect1(embreeScene_, &ray, &arguments);
+#else
+  rtcInitIntersectContext(&question.context);
+  question.context.filter = &RayCaster::filter;
+  rtcIntersect1(embreeScene_, &question.context, &ray);
+#endif
+  return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNone : ray.hit.primID;
+}
+
+std::uint32_t RayCaster::cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from, std::uint64_t& repeats,
+                              const HoleQuestion* holes) const {
+  if (holes != nullptr && anyHoles_) {
+    Question question{{}, *this, origin, direction, from, *holes};
+    return castThroughHoles(question, tnear);
+  }
   for (int attempt = 0; attempt < kMostRepeats; ++attempt) {
-    ray.ray.tfar = std::numeric_limits<float>::infinity();
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit ray = rayHit(origin, direction, tnear);
     castRay(embreeScene_, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNone;
     if (ray.hit.primID != from) return ray.hit.primID;
     ++repeats;  // a plane cannot be met twice: rounding. Go on behind it.
-    ray.ray.tnear = ray.ray.tfar * (1 + 0x1p-22f) + 0x1p-24f;
+    tnear = ray.ray.tfar * (1 + 0x1p-22f) + 0x1p-24f;
   }
   return kNone;
 }
 
-std::uint32_t RayCaster::beyond(const Hit& hit, Vec3f origin, Vec3f direction, std::uint64_t& repeats) const {
-  const auto t = static_cast<float>(std::max(0.0, dot(hit.position - Vec3d(origin), Vec3d(direction))));
-  return cast(origin, direction, t * (1 + 0x1p-20f) + hit.clearance, hit.triangle, repeats);
+std::uint32_t RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats,
+                                 const HoleQuestion* holes) const {
+  return cast(origin, direction, 0, from, repeats, holes);
 }
 
 std::uint32_t RayCaster::past(std::uint32_t met, Vec3f origin, Vec3f direction, std::uint32_t from,
-                              std::uint64_t& repeats) const {
+                              std::uint64_t& repeats, const HoleQuestion* holes) const {
   Hit hit = intersect(met, origin, direction);
   for (int attempt = 0; attempt < kMostRepeats && startsOn(hit, origin, from); ++attempt) {
     if (attempt > 0 && !hit.back) break;
     const auto t = static_cast<float>(std::max(0.0, dot(hit.position - Vec3d(origin), Vec3d(direction))));
-    const std::uint32_t next = cast(origin, direction, t * (1 + 0x1p-18f) + hit.clearance, from, repeats);
+    const std::uint32_t next = cast(origin, direction, t * (1 + 0x1p-18f) + hit.clearance, from, repeats, holes);
     if (next == kNone) return kNone;
     hit = intersect(next, origin, direction);
   }
-  return hit.back ? frontOn(hit, direction) : hit.triangle;
+  return hit.back ? frontOn(hit, origin, direction, holes) : hit.triangle;
 }
 
-/// The triangle with the smallest index, so that the answer does not depend on the order of Embree's tree.
-std::uint32_t RayCaster::frontOn(const Hit& back, Vec3f direction) const {
-  struct Search {
-    const RayCaster& caster;
-    const Hit& back;
-    Vec3f direction;
-    double touching;
-    std::uint32_t found = kNone;
+/// Looks for the front that lies where a ray met a back. The triangle with the smallest index, so that
+/// the answer does not depend on the order of Embree's tree.
+struct RayCaster::FrontSearch {
+  const RayCaster& caster;
+  const Hit& back;
+  Vec3f origin, direction;
+  const HoleQuestion* holes;
+  double touching;
+  std::uint32_t found = kNone;
 
-    static bool visit(RTCPointQueryFunctionArguments* arguments) {
-      Search& self = *static_cast<Search*>(arguments->userPtr);
-      const TriangleData& t = self.caster.triangles_[arguments->primID];
-      if (arguments->primID >= self.found || !(dot(t.n, self.direction) < 0)) return false;
-      const Hit foot = self.caster.intersect(arguments->primID, Vec3f(self.back.position + Vec3d(t.n)), -t.n);
-      if (length(foot.position - self.back.position) <= self.touching) self.found = arguments->primID;
-      return false;  // the radius stays
-    }
-  };
+  static bool visit(RTCPointQueryFunctionArguments* arguments) {
+    FrontSearch& self = *static_cast<FrontSearch*>(arguments->userPtr);
+    const std::uint32_t i = arguments->primID;
+    if (i < self.found && self.isMet(i)) self.found = i;
+    return false;  // the radius stays
+  }
+  bool isMet(std::uint32_t i) const {
+    const TriangleData& t = caster.triangles_[i];
+    if (!(dot(t.n, direction) < 0)) return false;
+    const Hit foot = caster.intersect(i, Vec3f(back.position + Vec3d(t.n)), -t.n);
+    if (length(foot.position - back.position) > touching) return false;
+    return holes == nullptr || t.holes == 0 || !holes->goesThrough(caster.intersect(i, origin, direction));
+  }
+};
+
+std::uint32_t RayCaster::frontOn(const Hit& back, Vec3f origin, Vec3f direction, const HoleQuestion* holes) const {
   const double touching = 2 * static_cast<double>(back.clearance);
-  Search search{*this, back, direction, touching};
-  RTCPointQuery query{static_cast<float>(back.position.x), static_cast<float>(back.position.y),
-                      static_cast<float>(back.position.z), 0, static_cast<float>(touching)};
+  FrontSearch search{*this, back, origin, direction, holes, touching};
+  const Vec3f place(back.position);
+  RTCPointQuery query{place.x, place.y, place.z, 0, static_cast<float>(touching)};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(embreeScene_, &query, &context, &Search::visit, &search);
+  rtcPointQuery(embreeScene_, &query, &context, &FrontSearch::visit, &search);
   return search.found != kNone ? search.found : back.triangle;
 }
 

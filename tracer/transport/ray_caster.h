@@ -13,8 +13,11 @@
 
 struct RTCDeviceTy;
 struct RTCSceneTy;
+struct RTCFilterFunctionNArguments;
 
 namespace lucarne {
+
+class SurfaceTable;
 
 struct Hit {
   std::uint32_t triangle;
@@ -27,6 +30,16 @@ struct Hit {
   float clearance;  // local; rays that leave start so far off the triangle
 };
 
+/// Asked at triangles with holes that a ray may meet. The answer depends on the ray and the hit alone: the question
+/// comes in any order, of triangles behind the one that is met, too, and of some twice.
+class HoleQuestion {
+ public:
+  virtual bool goesThrough(const Hit& hit) const = 0;
+
+ protected:
+  ~HoleQuestion() = default;
+};
+
 struct RayCasterOptions {
   std::string isa;     // "avx2", "sse4.2", …; empty: avx2 where the processor has it
   bool robust = true;  // watertight edges, 13–20 % slower
@@ -34,26 +47,25 @@ struct RayCasterOptions {
 
 class RayCaster {
  public:
-  explicit RayCaster(const Scene& scene, const RayCasterOptions& options = {});
+  /// `surfaces` says which materials have holes; null: none.
+  explicit RayCaster(const Scene& scene, const RayCasterOptions& options = {}, const SurfaceTable* surfaces = nullptr);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  /// Nearest triangle along a unit direction, ignoring `from` (the triangle that the ray leaves, or kNone); kNone where
-  /// there is none. `repeats` counts the rare rays that met `from` again by rounding and were cast on.
-  std::uint32_t nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats) const;
-
-  /// The next triangle behind a hit of the same ray, for light that goes straight through it. Triangles that touch the
-  /// one hit count as met with it.
-  std::uint32_t beyond(const Hit& hit, Vec3f origin, Vec3f direction, std::uint64_t& repeats) const;
+  /// Nearest triangle along a unit direction, ignoring `from` (the triangle that the ray leaves, or kNone) and what
+  /// light goes through (`holes`; null: nothing); kNone where there is none. `repeats` counts the rare rays that met
+  /// `from` again by rounding and were cast on.
+  std::uint32_t nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats,
+                        const HoleQuestion* holes = nullptr) const;
 
   /// What a ray meets for which nearest() found the back of a one-sided triangle, or a triangle that it starts on and
   /// shall not meet. Triangles that touch are told apart: a ray that starts on the triangle goes on (a lamp that
   /// touches a wall is in front of it), and where the front of another lies on a back (rooms wall to wall, both faces
   /// of a wall without thickness) it meets that front. `met` itself where neither is so; kNone where the ray goes on
   /// and there is nothing.
-  std::uint32_t past(std::uint32_t met, Vec3f origin, Vec3f direction, std::uint32_t from,
-                     std::uint64_t& repeats) const;
+  std::uint32_t past(std::uint32_t met, Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats,
+                     const HoleQuestion* holes = nullptr) const;
   /// True where a ray from `origin`, which left the triangle `from` (or kNone), starts on the very triangle that it
   /// meets.
   bool startsOn(const Hit& hit, Vec3f origin, std::uint32_t from) const {
@@ -82,18 +94,24 @@ class RayCaster {
  private:
   struct alignas(64) TriangleData {  // one cache line a triangle
     Vec3f p0, e1, e2, n;
-    std::uint32_t material : 31, smooth : 1;
+    std::uint32_t material : 30, smooth : 1, holes : 1;
     float inset;  // smallest barycentric coordinate of a hit
     float clearance;
   };
   static_assert(sizeof(Vec3f) == 12);
-  void build(const Scene& scene, const RayCasterOptions& options);
-  std::uint32_t cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from, std::uint64_t& repeats) const;
-  std::uint32_t frontOn(const Hit& back, Vec3f direction) const;
+  struct Question;
+  struct FrontSearch;
+  void build(const Scene& scene, const RayCasterOptions& options, const SurfaceTable* surfaces);
+  std::uint32_t cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from, std::uint64_t& repeats,
+                     const HoleQuestion* holes) const;
+  std::uint32_t castThroughHoles(Question& question, float tnear) const;
+  static void filter(const RTCFilterFunctionNArguments* arguments);
+  std::uint32_t frontOn(const Hit& back, Vec3f origin, Vec3f direction, const HoleQuestion* holes) const;
 
   RTCDeviceTy* device_ = nullptr;
   RTCSceneTy* embreeScene_ = nullptr;
   std::vector<TriangleData, HugeAllocator<TriangleData>> triangles_;
+  bool anyHoles_ = false;
   std::string description_, isa_;
 };
 
