@@ -208,14 +208,19 @@ std::uint32_t RayCaster::past(std::uint32_t met, Vec3f origin, Vec3f direction, 
   return hit.back ? frontOn(hit, origin, direction, holes) : hit.triangle;
 }
 
-/// Looks for the front that lies where a ray met a back. The triangle with the smallest index, so that
+/// Looks for the front that a ray meets which Embree said to meet a back. The triangle with the smallest index, so that
 /// the answer does not depend on the order of Embree's tree.
+///
+/// A front that lies where the back was met is one. So is a front over the edge of a ridge: a ray that passes within a
+/// rounding c of the edge is given the one or the other, and where it meets the back it is up to c / |cos| from the
+/// edge, cos that of the ray and the back's normal, and c · |cos of the front| / |cos| below the front's plane. Only
+/// over ridges: where the two are a room's outer edge, seen from outside, the ray does meet the back first.
 struct RayCaster::FrontSearch {
   const RayCaster& caster;
   const Hit& back;
   Vec3f origin, direction;
   const HoleQuestion* holes;
-  double touching;
+  double touching, grazing;  // c; 1 / |cos|
   std::uint32_t found = kNone;
 
   static bool visit(RTCPointQueryFunctionArguments* arguments) {
@@ -226,18 +231,33 @@ struct RayCaster::FrontSearch {
   }
   bool isMet(std::uint32_t i) const {
     const TriangleData& t = caster.triangles_[i];
-    if (!(dot(t.n, direction) < 0)) return false;
+    const auto cosine = static_cast<double>(dot(t.n, direction));
+    if (!(cosine < 0)) return false;
     const Hit foot = caster.intersect(i, Vec3f(back.position + Vec3d(t.n)), -t.n);
-    if (length(foot.position - back.position) > touching) return false;
+    const double apart = length(foot.position - back.position);
+    if (apart > touching && !(apart <= touching * (1 + grazing) && isAtRidge(t, -cosine))) return false;
     return holes == nullptr || t.holes == 0 || !holes->goesThrough(caster.intersect(i, origin, direction));
+  }
+  bool isAtRidge(const TriangleData& front, double cosine) const {
+    const double below = std::abs(dot(back.position - Vec3d(front.p0), Vec3d(front.n)));
+    const TriangleData& own = caster.triangles_[back.triangle];
+    return below <= touching * (1 + cosine * grazing) && isBehind(own, front) && isBehind(front, own);
+  }
+  /// All of a is behind the plane of b's front, or in it.
+  bool isBehind(const TriangleData& a, const TriangleData& b) const {
+    const auto above = [&](Vec3d p) { return dot(p - Vec3d(b.p0), Vec3d(b.n)) > touching; };
+    const Vec3d p0(a.p0);
+    return !above(p0) && !above(p0 + Vec3d(a.e1)) && !above(p0 + Vec3d(a.e2));
   }
 };
 
 std::uint32_t RayCaster::frontOn(const Hit& back, Vec3f origin, Vec3f direction, const HoleQuestion* holes) const {
+  constexpr double kMostGrazing = 0x1p10;
   const double touching = 2 * static_cast<double>(back.clearance);
-  FrontSearch search{*this, back, origin, direction, holes, touching};
+  const double grazing = std::min(1 / std::abs(static_cast<double>(dot(back.n, direction))), kMostGrazing);
+  FrontSearch search{*this, back, origin, direction, holes, touching, grazing};
   const Vec3f place(back.position);
-  RTCPointQuery query{place.x, place.y, place.z, 0, static_cast<float>(touching)};
+  RTCPointQuery query{place.x, place.y, place.z, 0, static_cast<float>(touching * (1 + grazing))};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(embreeScene_, &query, &context, &FrontSearch::visit, &search);
