@@ -113,15 +113,13 @@ Aimed aimAt(const PhotonScene& photons, const std::vector<Vec3f>& targets) {
   return aimed;
 }
 
-// Embree's robust mode is watertight at edges. At a corner its edge tests may round so that none of the triangles
-// around is met, by about one ray in a thousand that is aimed at the very corner, to the last bit: no other ray is.
 TEST(RobustRays, RaysTowardEdgesAndCornersMeetTheFrontsOfAClosedMesh) {
   for (const ClosedScene& s : closedScenes(Rgb(0.5f))) {
     const PhotonScene photons(s.scene);
     const Targets targets(s.scene);
     for (const auto* places : {&targets.edges, &targets.corners}) {
       const Aimed aimed = aimAt(photons, *places);
-      EXPECT_LE(aimed.missed, places == &targets.edges ? 0 : 30 * places->size() / 500) << s.name;
+      EXPECT_EQ(aimed.missed, 0u) << s.name << " of " << 30 * places->size();
       EXPECT_EQ(aimed.backs, 0u) << s.name << " of " << 30 * places->size();
     }
   }

@@ -136,6 +136,11 @@ void RayCaster::build(const Scene& scene, const RayCasterOptions& options, const
   rtcReleaseGeometry(geometry);
   rtcCommitScene(embreeScene_);
   if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) failWith(device_, "building the ray tracing structure");
+  RTCBounds bounds;
+  rtcGetSceneBounds(embreeScene_, &bounds);
+  lower_ = {bounds.lower_x, bounds.lower_y, bounds.lower_z};
+  upper_ = {bounds.upper_x, bounds.upper_y, bounds.upper_z};
+  closed_ = isClosed();
 }
 
 /// A ray on its way through Embree.
@@ -190,9 +195,41 @@ std::uint32_t RayCaster::cast(Vec3f origin, Vec3f direction, float tnear, std::u
   return kNone;
 }
 
+/// Embree's robust mode is watertight at edges. At a corner its edge tests may round so that none of the triangles
+/// around is met, by about one ray in a thousand that is aimed at the very corner; turned by a few roundings it meets
+/// one.
 std::uint32_t RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats,
                                  const HoleQuestion* holes) const {
-  return cast(origin, direction, 0, from, repeats, holes);
+  const std::uint32_t met = cast(origin, direction, 0, from, repeats, holes);
+  if (met != kNone || !closed_ || !isWithinBounds(origin)) [[likely]]
+    return met;
+  return cast(origin, direction + Frame<float>(direction).s * 0x1p-19f, 0, from, repeats, holes);
+}
+
+bool RayCaster::isWithinBounds(Vec3f p) const {
+  return p.x >= lower_.x && p.y >= lower_.y && p.z >= lower_.z && p.x <= upper_.x && p.y <= upper_.y && p.z <= upper_.z;
+}
+
+/// Where light leaves a scene, casting each ray that does so a second time would cost up to a quarter of all time (of a
+/// room without a wall), for the sake of rays that hardly ever are: those aimed at a corner to the last bit. So only
+/// scenes do it of which at most one in 64 rays finds a way out, from fronts picked by their numbers, in directions
+/// with the density of the cosine: a spiral over the sphere about the tip of the normal.
+bool RayCaster::isClosed() const {
+  constexpr std::size_t kRays = 512;
+  std::size_t tried = 0, lost = 0;
+  std::uint64_t repeats = 0;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const auto triangle = static_cast<std::uint32_t>(i * triangles_.size() / kRays);
+    const TriangleData& t = triangles_[triangle];
+    if (!(t.clearance > 0)) continue;  // skipped
+    const double z = 1 - (2 * static_cast<double>(i * 197 % kRays) + 1) / kRays, r = std::sqrt(1 - z * z);
+    const double phi = 2.399963229728653 * static_cast<double>(i);
+    const Vec3d direction = normalize(Vec3d(t.n) + Vec3d{r * std::cos(phi), r * std::sin(phi), z});
+    const Vec3d middle = Vec3d(t.p0) + (Vec3d(t.e1) + Vec3d(t.e2)) * (1.0 / 3);
+    ++tried;
+    lost += cast(leave(middle, t.n, t.clearance), Vec3f(direction), 0, triangle, repeats, nullptr) == kNone;
+  }
+  return 64 * lost <= tried;
 }
 
 std::uint32_t RayCaster::past(std::uint32_t met, Vec3f origin, Vec3f direction, std::uint32_t from,

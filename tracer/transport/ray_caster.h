@@ -105,13 +105,16 @@ class RayCaster {
   std::uint32_t cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from, std::uint64_t& repeats,
                      const HoleQuestion* holes) const;
   std::uint32_t castThroughHoles(Question& question, float tnear) const;
+  bool isClosed() const;
+  bool isWithinBounds(Vec3f p) const;
   static void filter(const RTCFilterFunctionNArguments* arguments);
   std::uint32_t frontOn(const Hit& back, Vec3f origin, Vec3f direction, const HoleQuestion* holes) const;
 
   RTCDeviceTy* device_ = nullptr;
   RTCSceneTy* embreeScene_ = nullptr;
   std::vector<TriangleData, HugeAllocator<TriangleData>> triangles_;
-  bool anyHoles_ = false;
+  bool anyHoles_ = false, closed_ = false;
+  Vec3f lower_{}, upper_{};  // bounds
   std::string description_, isa_;
 };
 
