@@ -1,6 +1,7 @@
 // The text of a check, made from its JSON, so that both say the same.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "app/check.h"
 #include "app/check_input.h"
@@ -89,11 +90,13 @@ void writeFeatures(const Json& checked, Sections& out) {
 std::string describe(const Json& source) {
   const Json& i = source["intensity"];
   const double value = luminance(Rgbd{i[0].get<double>(), i[1].get<double>(), i[2].get<double>()});
-  const std::string strength = amount(value) + " " + source["unit"].get<std::string>();
-  const std::string name = " " + quotedName(source["name"].get<std::string>()) + ", ";
-  if (source["kind"] != "emissive") return source["kind"].get<std::string>() + name + strength;
-  return "emissive" + name + (source["textured"].get<bool>() ? "at most " : "") + strength + " over " +
-         number(source["area_m2"]) + " m²";
+  std::ostringstream text;
+  text << source["kind"].get<std::string>() << ' ' << quotedName(source["name"].get<std::string>()) << ", ";
+  const bool emissive = source["kind"] == "emissive";
+  if (emissive && source["textured"].get<bool>()) text << "at most ";
+  text << amount(value) << ' ' << source["unit"].get<std::string>();
+  if (emissive) text << " over " << number(source["area_m2"]) << " m²";
+  return text.str();
 }
 
 void writeLights(const Json& lights, Sections& out) {
