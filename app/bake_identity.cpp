@@ -17,6 +17,7 @@ constexpr std::array<const char*, 3> kShapes = {"pyramid", "box", "epanechnikov"
 constexpr std::array<const char*, 2> kChartModes = {"auto", "grow"};
 constexpr std::array<const char*, 2> kSamplers = {"random", "sobol"};
 constexpr std::array<const char*, 2> kDirectModes = {"photons", "gathered"};
+constexpr std::array<const char*, 2> kSeamModes = {"fit", "keep"};
 constexpr std::array<const char*, 3> kLightParts = {"all", "direct", "indirect"};
 
 /// The place of a view's text among names.
@@ -64,6 +65,7 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
   o.guideHash = s.at("guide").text();
   o.kernel.shape = choiceAt<KernelShape>(r.at("kernel"), kShapes);
   o.kernel.width = r.at("kernel_width").number();
+  if (r.has("seams")) o.seams = choiceAt<SeamMode>(r.at("seams"), kSeamModes);
   o.photons = std::max<std::uint64_t>(1, header.planned.photons);
   if (traceSettings(o) != header.identity.settings) s.refuse("has settings that this program does not know");
   if (resolveSettings(o) != header.identity.resolve) r.refuse("has kernel settings that this program does not know");
@@ -95,8 +97,12 @@ json traceSettings(const BakeOptions& o) {
 }
 
 json resolveSettings(const BakeOptions& o) {
-  return {{"kernel", kShapes[static_cast<std::size_t>(o.kernel.shape)]}, {"kernel_width", o.kernel.width}};
+  json settings = {{"kernel", kShapes[static_cast<std::size_t>(o.kernel.shape)]}, {"kernel_width", o.kernel.width}};
+  if (o.seams != SeamMode::fit) settings["seams"] = seamsName(o);
+  return settings;
 }
+
+std::string seamsName(const BakeOptions& o) { return kSeamModes[static_cast<std::size_t>(o.seams)]; }
 
 BakeOptions optionsOf(const PartHeader& header, const std::string& file) {
   try {
@@ -140,6 +146,7 @@ std::string bakeCommand(const PartHeader& header, const std::string& output, con
   add(o.kernel.shape != standard.kernel.shape,
       std::string("--kernel ") + kShapes[static_cast<std::size_t>(o.kernel.shape)]);
   add(o.kernel.width != standard.kernel.width, "--kernel-width " + shortest(o.kernel.width));
+  add(o.seams != standard.seams, "--seams " + seamsName(o));
   return text + (rest.empty() ? "" : " " + rest);
 }
 

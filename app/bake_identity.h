@@ -13,6 +13,8 @@ namespace lucarne {
 nlohmann::json traceSettings(const BakeOptions& options);
 /// How maps are made of tallies.
 nlohmann::json resolveSettings(const BakeOptions& options);
+/// "fit" or "keep".
+std::string seamsName(const BakeOptions& options);
 
 /// The options of a bake whose header this is; everything else as by default. Error(mergeRefused), naming `file`, for
 /// settings that this program does not know.

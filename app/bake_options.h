@@ -27,6 +27,9 @@ enum class DirectMode : std::uint8_t { photons, gathered };
 /// Where charts come from: TEXCOORD_1 where it can be used and grown elsewhere, or all grown.
 enum class ChartMode : std::uint8_t { automatic, grow };
 
+/// What becomes of the jumps between charts that continue each other (seam_fit.h).
+enum class SeamMode : std::uint8_t { fit, keep };
+
 struct BakeOptions {
   std::optional<std::filesystem::path> scene;  // none: the built-in room
   std::filesystem::path output;                // NAME.dlm, or NAME.part
@@ -39,19 +42,20 @@ struct BakeOptions {
   ChartMode charts = ChartMode::automatic;
   bool keepAllDirections = false;
   KernelOptions kernel;
+  SeamMode seams = SeamMode::fit;
   std::uint64_t seed = 0;
   SamplerKind sampler = SamplerKind::sobol;
   LightPart light = LightPart::all;
   DirectMode direct = DirectMode::photons;
-  std::uint64_t directSamples = 64;  // of the whole bake, a texel side
+  std::uint64_t directSamples = 64;                  // of the whole bake, a texel side
   std::optional<std::filesystem::path> environment;  // .exr or .hdr, equirectangular, cd/m²
-  double environmentScale = 1;  // times its values
-  double environmentTurn = 0;   // degrees about the vertical, counter-clockwise from above
-  bool guidedEmission = true;   // light from far away is aimed where a pilot found it useful
+  double environmentScale = 1;                       // times its values
+  double environmentTurn = 0;                        // degrees about the vertical, counter-clockwise from above
+  bool guidedEmission = true;                        // light from far away is aimed where a pilot found it useful
   // Not options: found while loading, since photons depend on them. Empty: none.
   std::string environmentHash, guideHash;
-  int threads = 0;  // of each process; 0: all
-  int ranks = 1;    // processes that bake together: as the MPI launcher says, not an option
+  int threads = 0;                 // of each process; 0: all
+  int ranks = 1;                   // processes that bake together: as the MPI launcher says, not an option
   double checkpointSeconds = 300;  // 0: no states are saved
   bool resume = false;             // go on from a saved state where there is one
   bool keepPart = false;           // the tallies, too, as NAME.part

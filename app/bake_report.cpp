@@ -31,6 +31,7 @@ nlohmann::json settingsToJson(const BakeOptions& o, const BakePlan& plan) {
   settings["photons"] = o.photons;
   if (gathersDirect(o)) settings["direct_samples"] = o.directSamples;
   settings["texels_per_metre_used"] = plan.layout.texelsPerMetre;
+  settings["seams"] = seamsName(o);
   settings.update(formatSettings(o.format));
   return settings;
 }
@@ -46,6 +47,13 @@ std::string rayCasters(const std::set<Maker>& makers) {
 
 std::uint64_t storedMapBytes(const LightMaps& maps) {
   return maps.directional.size() * sizeof(Rgb) + maps.irradiance.size() * (sizeof(Rgb) + 2 * sizeof(float));
+}
+
+nlohmann::json seamsToJson(const SeamReport& r, const BakeOptions& o) {
+  return {{"mode", seamsName(o)},          {"count", r.seams},
+          {"length_m", r.length},          {"rms_jump_before", r.jumpBefore},
+          {"rms_jump", r.jumpAfter},       {"largest_jump_before", r.worstBefore},
+          {"largest_jump", r.worstAfter},  {"flux_change", r.fluxChange}};
 }
 
 double perSecond(std::uint64_t count, double seconds) { return seconds > 0 ? static_cast<double>(count) / seconds : 0; }
@@ -90,6 +98,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["threads"] = threadCount(in.options);
   report["ranks"] = in.options.ranks;
   if (in.baked == nullptr) return report;
+  report["seams"] = seamsToJson(in.baked->seams, in.options);
   report["map_bytes"] = storedMapBytes(in.baked->maps);
   if (in.options.format.directional == MapFormat::ldr8)
     report["cut_flux"] = ldrScales(in.baked->maps, in.options.format.kMax).cutFlux;

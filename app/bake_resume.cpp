@@ -55,6 +55,7 @@ bool isOf(const nlohmann::json& manifest, const BakeOptions& options, const Part
   const nlohmann::json settings = manifest.value("settings", nlohmann::json::object());
   if (!settings.is_object()) return false;
   nlohmann::json wanted = resolveSettings(options);
+  wanted["seams"] = seamsName(options);
   wanted.update(formatSettings(options.format));
   wanted["photons"] = options.photons;
   if (gathersDirect(options)) wanted["direct_samples"] = options.directSamples;

@@ -39,6 +39,8 @@ Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& o
                         header.ledger.photons, baked.direct.samples.count(), baked.direct.samples.countOdd(),
                         baked.contacts},
                        options.kernel);
+  const SeamSet seams = findSeams(scene, plan.charts, plan.layout, baked.maps, baked.contacts);
+  baked.seams = fitSeams(seams, plan.layout, baked.maps, options.seams == SeamMode::fit);
   baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);
   return baked;
 }

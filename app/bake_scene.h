@@ -8,6 +8,7 @@
 #include "distributed/photon_run.h"
 #include "dlm/atlas.h"
 #include "dlm/light_maps.h"
+#include "dlm/seam_fit.h"
 #include "dlm/texel_contacts.h"
 
 namespace lucarne {
@@ -19,6 +20,7 @@ struct Baked {
   double emittedFlux = 0;              // lm, mean over channels: the scale of the ledger and the tallies
   std::vector<SideContacts> contacts;  // that the maps were made with, by side
   LightMaps maps;
+  SeamReport seams;
   AtlasUv uv;           // into maps' irradiance atlas
   Hash128 contentHash;  // of the tallies
 };

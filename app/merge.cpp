@@ -85,19 +85,21 @@ class ReadingRate {
   double shown_ = 0;
 };
 
-/// The kernel as asked for, or as the parts have it.
+/// The kernel and the seams as asked for, or as the parts have them.
 void chooseKernel(const MergeOptions& options, BakeOptions& baked, PartHeader& whole) {
   if (options.kernel) baked.kernel.shape = *options.kernel;
   if (options.kernelWidth) baked.kernel.width = *options.kernelWidth;
+  if (options.seams) baked.seams = *options.seams;
   checkSettings(baked);
   whole.identity.resolve = resolveSettings(baked);
 }
 
-/// Members of the kernel that the options give, so that the parts need not agree about them.
+/// Settings of resolving that the options give, so that the parts need not agree about them.
 std::set<std::string> chosenMembers(const MergeOptions& options) {
   std::set<std::string> chosen;
   if (options.kernel) chosen.insert("kernel");
   if (options.kernelWidth) chosen.insert("kernel_width");
+  if (options.seams) chosen.insert("seams");
   return chosen;
 }
 

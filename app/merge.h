@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dlm/dlm_writer.h"
-#include "dlm/kernel.h"
+#include "app/bake_options.h"
 
 namespace lucarne {
 
@@ -17,6 +16,7 @@ struct MergeOptions {
   std::optional<std::filesystem::path> output;  // NAME.dlm or NAME.part; none: only verify
   std::optional<KernelShape> kernel;            // none: as the parts were baked
   std::optional<double> kernelWidth;
+  std::optional<SeamMode> seams;
   bool complete = false;  // missing photons are an error
   DlmFormat format;
   std::optional<std::filesystem::path> report;

@@ -57,6 +57,7 @@ void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   cmd.add_option("--kernel-width", o.kernel.width,
                  "distance in texels at which the kernel ends: wider is smoother and blurrier")
       ->capture_default_str();
+  addSeams(cmd, o.seams, "fit");
   cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();
   addChoice<SamplerKind>(cmd, "--sampler", o.sampler, {{"random", SamplerKind::random}, {"sobol", SamplerKind::sobol}},
                          "sobol", "numbers of the photons: sobol (low discrepancy, less noise) or random");

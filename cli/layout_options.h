@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/bake_options.h"
+#include "cli/choices.h"
 
 namespace lucarne {
 
@@ -13,7 +14,8 @@ struct LayoutTexts {
   std::string photons = "20M", texels = "1M", directSamples = "64";
 };
 
-/// --photons, --directions, --density, --charts, --texels, --direct, --direct-samples, --keep-all-directions. `o` and `texts` must outlive the parsing.
+/// --photons, --directions, --density, --charts, --texels, --direct, --direct-samples, --keep-all-directions. `o` and
+/// `texts` must outlive the parsing.
 void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts);
 /// After parsing: UsageError for texts that are no numbers.
 void finishLayout(BakeOptions& o, const LayoutTexts& texts);
@@ -27,5 +29,12 @@ void finishSky(BakeOptions& o, const std::string& environment);
 void addMachineOptions(CLI::App& cmd, BakeOptions& o);
 /// --format and --kmax.
 void addFormatOptions(CLI::App& cmd, DlmFormat& format);
+
+/// --seams, of a bake or (std::optional) of a merge.
+template <class Seams>
+void addSeams(CLI::App& cmd, Seams& seams, const std::string& defaultName) {
+  addChoice<Seams>(cmd, "--seams", seams, {{"fit", SeamMode::fit}, {"keep", SeamMode::keep}}, defaultName,
+                   "where charts continue each other: fit their light together, or keep it as it was found");
+}
 
 }  // namespace lucarne

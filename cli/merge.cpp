@@ -7,8 +7,8 @@
 #include "base/log.h"
 #include "base/units.h"
 #include "cli/choices.h"
-#include "cli/layout_options.h"
 #include "cli/commands.h"
+#include "cli/layout_options.h"
 
 namespace lucarne {
 namespace {
@@ -24,6 +24,7 @@ void addOptions(CLI::App& cmd, MergeOptions& o) {
       cmd, "--kernel", o.kernel,
       {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
       "as baked", "reconstruction kernel: pyramid, box or epanechnikov");
+  addSeams(cmd, o.seams, "as baked");
   addFormatOptions(cmd, o.format);
   cmd.add_option("--report", o.report, "write what happened to a JSON file");
   cmd.add_flag("--quiet", o.quiet, "print errors only");
