@@ -196,8 +196,23 @@ std::uint64_t bytesOf(const std::vector<T>&... arrays) {
   return (... + (arrays.size() * sizeof(T)));
 }
 
+}  // namespace
+
+std::uint64_t sceneBytes(const Scene& scene) {
+  return bytesOf(scene.positions, scene.normals, scene.uv0, scene.uv1, scene.atlasUv, scene.tangents,
+                 scene.sourceVertex, scene.triangles, scene.smooth);
+}
+
+BakePlan makeBenchPlan(const Scene& scene) {
+  BakeOptions options;
+  options.texelsPerMetre = 1e6;  // the budget decides
+  options.texelBudget = kTexels;
+  options.keepAllDirections = true;
+  return makePlan(scene, options);
+}
+
 /// What Embree gives back when a scene ends is what it held.
-std::uint64_t bytesHeld(std::unique_ptr<PhotonScene> scene) {
+std::uint64_t embreeBytes(std::unique_ptr<PhotonScene> scene) {
   std::atomic<std::int64_t> bytes{0};
   const auto watch = [](void* sum, ssize_t change, bool) {
     *static_cast<std::atomic<std::int64_t>*>(sum) -= change;
@@ -211,19 +226,12 @@ std::uint64_t bytesHeld(std::unique_ptr<PhotonScene> scene) {
   return static_cast<std::uint64_t>(std::max(std::int64_t{0}, bytes.load()));
 }
 
-}  // namespace
-
 SceneResult measure(const std::string& name, const Scene& scene, double seconds) {
   SceneResult result;
   result.name = name;
   result.triangles = scene.triangles.size();
-  result.sceneBytes = bytesOf(scene.positions, scene.normals, scene.uv0, scene.uv1, scene.atlasUv, scene.tangents,
-                              scene.sourceVertex, scene.triangles, scene.smooth);
-  BakeOptions options;
-  options.texelsPerMetre = 1e6;  // the budget decides
-  options.texelBudget = kTexels;
-  options.keepAllDirections = true;
-  const BakePlan plan = makePlan(scene, options);
+  result.sceneBytes = sceneBytes(scene);
+  const BakePlan plan = makeBenchPlan(scene);
   auto photonScene = std::make_unique<PhotonScene>(scene);
   result.rayCaster = photonScene->rayCaster().description();
   result.texels = plan.layout.texelCount;
@@ -243,7 +251,7 @@ SceneResult measure(const std::string& name, const Scene& scene, double seconds)
       rounds.push_back(contest.run(i, seconds / (4 * count)));
     summarize(rounds, result);
   }
-  result.embreeBytes = bytesHeld(std::move(photonScene));
+  result.embreeBytes = embreeBytes(std::move(photonScene));
   return result;
 }
 

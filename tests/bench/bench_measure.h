@@ -4,10 +4,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "app/bake_plan.h"
+#include "tests/bench/bench_memory.h"
 #include "tracer/scene/scene.h"
+
+namespace lucarne {
+class PhotonScene;
+}
 
 namespace lucarne::bench {
 
@@ -20,7 +27,8 @@ struct SceneResult {
   std::string name, rayCaster;  // rayCaster: RayCaster::description()
   std::uint64_t triangles = 0, texels = 0;
   std::uint64_t sceneBytes = 0, embreeBytes = 0, tallyBytes = 0;  // of the arrays of Scene; one copy of the tallies
-  bool sharedTallies = false;                                     // as PhotonRun decides for two threads
+  MemoryUse memory;
+  bool sharedTallies = false;  // as PhotonRun decides for two threads
   int rounds = 0;
   double rawRaysPerPhoton = 0, raysPerPhoton = 0;
   Spread rawRaysPerSecond, traceRaysPerSecond, depositRaysPerSecond;
@@ -28,6 +36,15 @@ struct SceneResult {
   Spread depositOverRaw;     // hits counted in tallies of this thread's own
   Spread twoThreadsOverOne;  // both with deposits; 2 is the best there is
 };
+
+/// The light maps that all is measured with.
+BakePlan makeBenchPlan(const Scene& scene);
+
+/// Of the arrays of Scene.
+std::uint64_t sceneBytes(const Scene& scene);
+
+/// Bytes that Embree holds for the scene, which is gone afterwards.
+std::uint64_t embreeBytes(std::unique_ptr<PhotonScene> scene);
 
 /// Takes about `seconds` of wall time on two idle cores, and what charts and trees take to build.
 SceneResult measure(const std::string& name, const Scene& scene, double seconds);

@@ -41,9 +41,13 @@ std::vector<SceneResult> measureAll(const Arguments& arguments) {
     for (const SceneRecipe& recipe : sceneRecipes()) names.push_back(recipe.name);
   std::vector<Scene> scenes;  // all before the first is measured: a wrong name shows at once
   for (const std::string& name : names) scenes.push_back(sceneOf(name, arguments.smooth));
+  std::vector<MemoryUse> memory;  // before there are threads
+  for (const Scene& scene : scenes) memory.push_back(measureMemory(scene));
   std::vector<SceneResult> results;
-  for (std::size_t i = 0; i < names.size(); ++i)
+  for (std::size_t i = 0; i < names.size(); ++i) {
     results.push_back(measure(names[i], scenes[i], arguments.seconds / static_cast<double>(names.size())));
+    results.back().memory = memory[i];
+  }
   return results;
 }
 
@@ -56,6 +60,10 @@ json toJson(const SceneResult& r) {
           {"scene_bytes", r.sceneBytes},
           {"embree_bytes", r.embreeBytes},
           {"tally_bytes", r.tallyBytes},
+          {"peak_bytes", r.memory.peak},
+          {"held_bytes", r.memory.held},
+          {"memory_over_embree_and_tallies", r.memory.peakOver()},
+          {"held_over_embree_and_tallies", r.memory.heldOver()},
           {"two_threads_share_tallies", r.sharedTallies},
           {"rounds", r.rounds},
           {"raw_rays_per_photon", r.rawRaysPerPhoton},
@@ -86,14 +94,14 @@ void printJson(const std::vector<SceneResult>& results, const Arguments& argumen
 void printTable(const std::vector<SceneResult>& results) {
   std::printf("%s\n%s\nRates: million rays per second of CPU time. Ratios: medians, in brackets their quartiles.\n\n",
               describeHost().cpu.c_str(), buildName().c_str());
-  std::printf("%-12s %9s %7s %6s  %-18s  %-18s  %-18s\n", "scene", "triangles", "tallies", "raw", "trace/raw",
-              "with deposit/raw", "2 threads/1");
+  std::printf("%-12s %9s %7s %6s  %-18s  %-18s  %-18s  %s\n", "scene", "triangles", "tallies", "raw", "trace/raw",
+              "with deposit/raw", "2 threads/1", "memory/(Embree + tallies), peak, held");
   const auto print = [](const Spread& s) { std::printf("  %.3f (%.3f-%.3f)", s.median, s.low, s.high); };
   for (const SceneResult& r : results) {
     std::printf("%-12s %9llu %4.0f MB %6.2f", r.name.c_str(), static_cast<unsigned long long>(r.triangles),
                 1e-6 * static_cast<double>(r.tallyBytes), 1e-6 * r.rawRaysPerSecond.median);
     for (const Spread& s : {r.traceOverRaw, r.depositOverRaw, r.twoThreadsOverOne}) print(s);
-    std::printf("\n");
+    std::printf("  %.2f %.2f\n", r.memory.peakOver(), r.memory.heldOver());
   }
 }
 
