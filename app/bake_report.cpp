@@ -102,6 +102,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["map_bytes"] = storedMapBytes(in.baked->maps);
   if (in.options.format.directional == MapFormat::ldr8)
     report["cut_flux"] = ldrScales(in.baked->maps, in.options.format.kMax).cutFlux;
+  if (in.options.kernel.shape == KernelShape::adaptive) report["kernel_bias"] = in.baked->kernelBias.relative();
   report["estimated_relative_error"] = estimatedRelativeError(in.baked->maps, in.plan.layout);
   return report;
 }

@@ -38,7 +38,7 @@ Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& o
   baked.maps = resolve({scene, plan.charts, plan.layout, plan.tallies, tallies, options.directions, baked.emittedFlux,
                         header.ledger.photons, baked.direct.samples.count(), baked.direct.samples.countOdd(),
                         baked.contacts},
-                       options.kernel);
+                       options.kernel, &baked.kernelBias);
   const SeamSet seams = findSeams(scene, plan.charts, plan.layout, baked.maps, baked.contacts);
   baked.seams = fitSeams(seams, plan.layout, baked.maps, options.seams == SeamMode::fit);
   baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);

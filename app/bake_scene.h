@@ -21,6 +21,7 @@ struct Baked {
   std::vector<SideContacts> contacts;  // that the maps were made with, by side
   LightMaps maps;
   SeamReport seams;
+  KernelBias kernelBias;  // of adaptive kernels
   AtlasUv uv;           // into maps' irradiance atlas
   Hash128 contentHash;  // of the tallies
 };

@@ -87,7 +87,10 @@ class ReadingRate {
 
 /// The kernel and the seams as asked for, or as the parts have them.
 void chooseKernel(const MergeOptions& options, BakeOptions& baked, PartHeader& whole) {
+  const bool wasAdaptive = baked.kernel.shape == KernelShape::adaptive;
   if (options.kernel) baked.kernel.shape = *options.kernel;
+  if (wasAdaptive != (baked.kernel.shape == KernelShape::adaptive))
+    baked.kernel.width = defaultKernelWidth(baked.kernel.shape);
   if (options.kernelWidth) baked.kernel.width = *options.kernelWidth;
   if (options.seams) baked.seams = *options.seams;
   checkSettings(baked);

@@ -17,6 +17,7 @@ namespace {
 struct BakeTexts {
   LayoutTexts layout;
   std::string scene, environment, report, seed = "0", part, photonRange, checkpoint = "5m";
+  std::optional<double> kernelWidth;
 };
 
 /// The two numbers of "A/B" or "A:B".
@@ -44,19 +45,17 @@ void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
   if (!texts.report.empty()) options.report = texts.report;
   finishLayout(options, texts.layout);
   options.seed = parseCount("--seed", texts.seed);
+  options.kernel.width = texts.kernelWidth.value_or(defaultKernelWidth(options.kernel.shape));
   options.checkpointSeconds = texts.checkpoint == "0" ? 0 : parseDuration("--checkpoint", texts.checkpoint);
   finishPiece(options, texts, photonsGiven);
 }
 
 void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   addLayoutOptions(cmd, o, texts.layout);
-  addChoice<KernelShape>(
-      cmd, "--kernel", o.kernel.shape,
-      {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
-      "pyramid", "reconstruction kernel: pyramid, box or epanechnikov");
-  cmd.add_option("--kernel-width", o.kernel.width,
-                 "distance in texels at which the kernel ends: wider is smoother and blurrier")
-      ->capture_default_str();
+  addChoice<KernelShape>(cmd, "--kernel", o.kernel.shape, kernelShapes(), "pyramid", kKernelHelp);
+  cmd.add_option("--kernel-width", texts.kernelWidth,
+                 "distance in texels at which the kernel ends: wider is smoother and blurrier; of adaptive the widest")
+      ->default_str("1.5, of adaptive 4.5");
   addSeams(cmd, o.seams, "fit");
   cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();
   addChoice<SamplerKind>(cmd, "--sampler", o.sampler, {{"random", SamplerKind::random}, {"sobol", SamplerKind::sobol}},

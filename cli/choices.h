@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "dlm/kernel.h"
+
 namespace lucarne {
 
 /// Adds an option whose value is one of the names; another is refused in one line that lists them.
@@ -22,5 +24,14 @@ CLI::Option* addChoice(CLI::App& cmd, const std::string& name, T& target, const 
   };
   return cmd.add_option_function<std::string>(name, choose, help)->type_name("NAME")->default_str(defaultName);
 }
+
+inline std::map<std::string, KernelShape> kernelShapes() {
+  return {{"pyramid", KernelShape::pyramid},
+          {"box", KernelShape::box},
+          {"epanechnikov", KernelShape::epanechnikov},
+          {"adaptive", KernelShape::adaptive}};
+}
+inline constexpr const char* kKernelHelp =
+    "reconstruction kernel: pyramid, box, epanechnikov, or adaptive: at each texel the width of least expected error";
 
 }  // namespace lucarne

@@ -20,10 +20,9 @@ void addOptions(CLI::App& cmd, MergeOptions& o) {
   cmd.add_flag("--complete", o.complete,
                "refuse when photons of the bake are missing; else they are named in a warning");
   cmd.add_option("--kernel-width", o.kernelWidth, "distance in texels at which the kernel ends; not given: as baked");
-  addChoice<std::optional<KernelShape>>(
-      cmd, "--kernel", o.kernel,
-      {{"pyramid", KernelShape::pyramid}, {"box", KernelShape::box}, {"epanechnikov", KernelShape::epanechnikov}},
-      "as baked", "reconstruction kernel: pyramid, box or epanechnikov");
+  std::map<std::string, std::optional<KernelShape>> shapes;
+  for (const auto& [name, shape] : kernelShapes()) shapes[name] = shape;
+  addChoice<std::optional<KernelShape>>(cmd, "--kernel", o.kernel, shapes, "as baked", kKernelHelp);
   addSeams(cmd, o.seams, "as baked");
   addFormatOptions(cmd, o.format);
   cmd.add_option("--report", o.report, "write what happened to a JSON file");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dlm/direct_gather.h"
+#include "dlm/kernel_levels.h"
 #include "dlm/side_errors.h"
 
 namespace lucarne {
@@ -102,8 +103,44 @@ std::vector<Rgbd> addSet(const SideInput& s, bool gathered, const SideMaps& out,
   return irradiance;
 }
 
-void resolveSide(const ResolveInput& in, const Kernel& kernel, const Scales& scales, std::size_t index,
-                 LightMaps& maps, SideErrors& errors) {
+/// All that is the same for every side.
+struct ResolveRun {
+  const ResolveInput& in;
+  std::vector<Kernel> kernels;
+  Scales scales;
+  LightMaps& maps;
+  std::vector<SideErrors> errors;   // by side
+  std::vector<KernelBias> biases;   // by side
+  const Kernel& usual() const { return kernels[std::min<std::size_t>(1, kernels.size() - 1)]; }
+};
+
+/// Tries every kernel at every texel.
+KernelBias chooseKernels(const ResolveRun& run, const TallySide& side, const SideContacts& contacts,
+                         std::span<const double> area, LevelResolver& resolver) {
+  std::vector<LevelEstimate> estimates;
+  std::vector<std::vector<double>> own;
+  std::vector<bool> hasSurface;
+  for (std::size_t t = 0; t < area.size(); ++t) hasSurface.push_back(area[t] * contacts.share(t) > 0 && !contacts.hidden(t));
+  for (const Kernel& kernel : run.kernels) {
+    const LevelResolver one(side.width, side.height, area, {kernel}, contacts);
+    estimates.push_back(estimateOf({run.in, side, one, kernel, contacts, run.scales}));
+    own.emplace_back(area.begin(), area.end());
+    for (std::size_t t = 0; t < area.size(); ++t) own.back()[t] *= contacts.share(t) * one.level(0).inverseArea()[t];
+  }
+  LevelChoice choice = chooseLevels(side.width, side.height, estimates, own, hasSurface);
+  KernelBias bias;
+  for (std::size_t t = 0; t < area.size(); ++t) {
+    if (!hasSurface[t]) continue;
+    bias.flux += area[t] * estimates[choice.level[t]].value[t];
+    bias.biased += area[t] * std::sqrt(choice.biasSquared[t]);
+  }
+  resolver.choose(std::move(choice.level));
+  return bias;
+}
+
+void resolveSide(ResolveRun& run, std::size_t index) {
+  const ResolveInput& in = run.in;
+  LightMaps& maps = run.maps;
   const SideMaps& out = maps.sides[index];
   if (!out.lit) return;
   const TallySide& side = in.tallyLayout.sides[index];
@@ -111,8 +148,9 @@ void resolveSide(const ResolveInput& in, const Kernel& kernel, const Scales& sca
                                      side.texelCount());
   const SideContacts none;
   const SideContacts& contacts = in.contacts.empty() ? none : in.contacts[index];
-  const SideResolver resolver(side.width, side.height, area, kernel, contacts);
-  const SideInput s{in, side, resolver, kernel, contacts, scales};
+  LevelResolver resolver(side.width, side.height, area, run.kernels, contacts);
+  if (run.kernels.size() > 1) run.biases[index] = chooseKernels(run, side, contacts, area, resolver);
+  const SideInput s{in, side, resolver, run.usual(), contacts, run.scales};
   const std::vector<Rgbd> photons = in.photons > 0 ? addSet(s, false, out, maps) : std::vector<Rgbd>(side.texelCount());
   std::vector<Rgbd> irradiance = photons;
   if (in.samples > 0) {
@@ -123,7 +161,7 @@ void resolveSide(const ResolveInput& in, const Kernel& kernel, const Scales& sca
   const auto statistics = statisticsOf(in.tallies, side);
   for (std::size_t t = 0; t < irradiance.size(); ++t)
     maps.photons[out.firstTexel + t] = static_cast<float>(statistics[kStatisticsChannels * t + kCount]);
-  errors = sideErrors(s, photons);
+  run.errors[index] = sideErrors(s, photons);
 }
 
 /// With the ratios of all sides known.
@@ -148,12 +186,11 @@ void fillErrors(const std::vector<SideErrors>& errors, LightMaps& maps) {
 
 }  // namespace
 
-LightMaps resolve(const ResolveInput& in, const KernelOptions& options) {
+LightMaps resolve(const ResolveInput& in, const KernelOptions& options, KernelBias* bias) {
   LightMaps maps;
   maps.directionCount = in.directionCount;
   maps.charts = describeCharts(in);
   planMaps(in, maps);
-  const Kernel kernel = makeKernel(options);
   const double metres = in.scene.frame.scale;
   Scales scales;
   if (in.photons > 0)
@@ -162,10 +199,12 @@ LightMaps resolve(const ResolveInput& in, const KernelOptions& options) {
   if (in.samples > 0)
     scales.direct = directUnit(in.emittedFlux, in.layout, metres) / static_cast<double>(in.samples) /
                     static_cast<double>(kFixedPointOne);
-  std::vector<SideErrors> errors(maps.sides.size());
-  tbb::parallel_for(std::size_t{0}, maps.sides.size(),
-                    [&](std::size_t s) { resolveSide(in, kernel, scales, s, maps, errors[s]); });
-  fillErrors(errors, maps);
+  ResolveRun run{in, kernelLevels(options), scales, maps, std::vector<SideErrors>(maps.sides.size()),
+                 std::vector<KernelBias>(maps.sides.size())};
+  tbb::parallel_for(std::size_t{0}, maps.sides.size(), [&](std::size_t s) { resolveSide(run, s); });
+  fillErrors(run.errors, maps);
+  for (const KernelBias& b : run.biases)
+    if (bias != nullptr) *bias += b;
   return maps;
 }
 

@@ -31,8 +31,19 @@ struct ResolveInput {
   std::span<const SideContacts> contacts = {};  // by side, as findContacts() finds them; empty: as if there were none
 };
 
-/// Everything of LightMaps but the place in the atlas.
-LightMaps resolve(const ResolveInput& input, const KernelOptions& kernel);
+/// What an adaptive kernel is estimated to blur: Σ area·E, and Σ area·|bias of E|, luminance.
+struct KernelBias {
+  double flux = 0, biased = 0;
+  double relative() const { return flux > 0 ? biased / flux : 0; }
+  KernelBias& operator+=(const KernelBias& o) {
+    flux += o.flux;
+    biased += o.biased;
+    return *this;
+  }
+};
+
+/// Everything of LightMaps but the place in the atlas. To `bias`, if any, that of adaptive kernels is added.
+LightMaps resolve(const ResolveInput& input, const KernelOptions& kernel, KernelBias* bias = nullptr);
 
 /// Flux-weighted estimated relative error of the irradiance: Σ area·σ / Σ area·E over all lit texels.
 double estimatedRelativeError(const LightMaps& maps, const TexelLayout& layout);

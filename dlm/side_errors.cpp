@@ -130,6 +130,28 @@ std::vector<float> SideErrors::deviations(const ErrorRatio& allPhotons, const Er
   return all;
 }
 
+LevelEstimate estimateOf(const SideInput& s) {
+  LevelEstimate estimate{std::vector<double>(s.side.texelCount()), std::vector<double>(s.side.texelCount())};
+  if (s.in.photons > 0) {
+    std::vector<Rgbd> irradiance;
+    for (const double v : s.resolver.filterValues(luminanceUnits(s, s.in.tallies)))
+      irradiance.emplace_back(v * s.scales.photons);
+    const std::vector<double> photons = s.resolver.sumUnderKernel(channelOf(statisticsOf(s.in.tallies, s.side), kCount));
+    estimate.variance = photonVariances(s, irradiance, photons);
+    for (std::size_t t = 0; t < irradiance.size(); ++t) estimate.value[t] = irradiance[t].y;
+  }
+  if (s.in.samples == 0) return estimate;
+  std::vector<double> units = luminanceUnits(s, *s.in.tallies.direct());
+  const std::vector<double> variances = directVariances(s, units);
+  for (std::size_t t = 0; t < units.size(); ++t) units[t] *= s.area()[t] * s.scales.direct;
+  const std::vector<double> values = s.resolver.filterValues(units);
+  for (std::size_t t = 0; t < units.size(); ++t) {
+    estimate.value[t] += values[t];
+    estimate.variance[t] = std::max(0.0, estimate.variance[t]) + variances[t];
+  }
+  return estimate;
+}
+
 SideErrors sideErrors(const SideInput& s, const std::vector<Rgbd>& photonIrradiance) {
   SideErrors errors;
   if (s.in.photons > 0) errors.photons = photonErrors(s, photonIrradiance);

@@ -23,4 +23,7 @@ struct SideErrors {
 /// `photonIrradiance`: of the first set, filtered; lx.
 SideErrors sideErrors(const SideInput& side, const std::vector<Rgbd>& photonIrradiance);
 
+/// Luminance of the whole light of a side's texels and its variance, lx, with `side`'s resolver.
+LevelEstimate estimateOf(const SideInput& side);
+
 }  // namespace lucarne

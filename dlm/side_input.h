@@ -4,7 +4,7 @@
 #include <span>
 
 #include "dlm/resolve.h"
-#include "dlm/side_resolver.h"
+#include "dlm/kernel_levels.h"
 #include "tracer/transport/ledger.h"
 
 namespace lucarne {
@@ -17,8 +17,8 @@ struct Scales {
 struct SideInput {
   const ResolveInput& in;
   const TallySide& side;
-  const SideResolver& resolver;
-  const Kernel& kernel;
+  const LevelResolver& resolver;
+  const Kernel& kernel;  // that at most texels, for what need not be exact
   const SideContacts& contacts;
   Scales scales;
   std::span<const double> area() const {

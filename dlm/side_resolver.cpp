@@ -64,6 +64,11 @@ void SideResolver::spreadSources(std::vector<std::uint32_t>& queue, bool acrossC
   }
 }
 
+void SideResolver::restrictTo(std::span<const std::uint8_t> levels, std::uint8_t level) {
+  levels_ = levels;
+  level_ = level;
+}
+
 template <class T>
 void SideResolver::spread(std::vector<T>& values) const {
   for (std::size_t t = 0; t < values.size(); ++t)
@@ -76,14 +81,14 @@ std::vector<T> SideResolver::filter(int power, F&& term) const {
   std::size_t t = 0;
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x, ++t) {
-      if (inverseArea_[t] <= 0) continue;
+      if (inverseArea_[t] <= 0 || skips(t)) continue;
       T sum{};
       forNeighbours(x, y, [&](std::size_t n, double k) { sum += term(n, k); });
       for (int i = 0; i < power; ++i) sum = sum * inverseArea_[t];
       values[t] = sum;
     }
   }
-  spread(values);
+  if (levels_.empty()) spread(values);
   return values;
 }
 

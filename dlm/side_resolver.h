@@ -26,8 +26,16 @@ class SideResolver {
   std::vector<Rgbd> filterMeans(std::span<const std::int64_t> means, std::span<const double> area) const;
   /// Per texel: Σ k²·values(t') over the square of Σ k·area(t').
   std::vector<double> filterSquares(std::span<const double> values) const;
+  /// From now on only texels for which levels[t] is `level` are worked out; the others are 0, and none is copied.
+  /// `levels` must outlive this.
+  void restrictTo(std::span<const std::uint8_t> levels, std::uint8_t level);
+  /// Per texel: 1 / Σ k·open area; 0 where there is none.
+  std::span<const double> inverseArea() const { return inverseArea_; }
+  /// The texel that a texel takes its value from: itself where it has one, kNone where none has.
+  std::uint32_t source(std::size_t t) const { return source_[t]; }
 
  private:
+  bool skips(std::size_t t) const { return !levels_.empty() && levels_[t] != level_; }
   /// Per texel: Σ term(t', k) times 1 / Σ k·area, `power` times.
   template <class T, class F>
   std::vector<T> filter(int power, F&& term) const;
@@ -43,6 +51,8 @@ class SideResolver {
   const SideContacts& contacts_;
   std::vector<double> inverseArea_;    // 1 / Σ k·open area; 0: no surface within the kernel, or hidden
   std::vector<std::uint32_t> source_;  // texel to copy from; itself where it has a value
+  std::span<const std::uint8_t> levels_;
+  std::uint8_t level_ = 0;
 };
 
 }  // namespace lucarne
