@@ -14,6 +14,7 @@ void addMerge(CLI::App& app, Action& action);
 void addCheck(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);
 void addProbe(CLI::App& app, Action& action);
+void addCompare(CLI::App& app, Action& action);
 void addRender(CLI::App& app, Action& action);  // with OpenGL only
 void addPlay(CLI::App& app, Action& action);
 

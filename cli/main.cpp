@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   lucarne::addCheck(app, action);
   lucarne::addInfo(app, action);
   lucarne::addProbe(app, action);
+  lucarne::addCompare(app, action);
 #ifdef LUCARNE_HAS_PLAYER
   lucarne::addRender(app, action);
   lucarne::addPlay(app, action);

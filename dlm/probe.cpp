@@ -44,7 +44,7 @@ nlohmann::json triple(Vec3d v) { return {v.x, v.y, v.z}; }
 
 Prober::Prober(const Dlm& dlm) : maps_(dlm.maps), directions_(dlm.maps.directionCount), surface_(dlm.scene, dlm.maps) {}
 
-ProbeAnswer Prober::probe(Vec3d position, Vec3d normal) const {
+ProbeAnswer Prober::probe(Vec3d position, Vec3d normal, ProbeDetail detail) const {
   if (!isFinite(position) || !isFinite(normal)) throw InputError("a point or normal has a number that is not finite");
   const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
   if (!(largest > 0)) throw InputError("a normal has length zero");
@@ -65,19 +65,22 @@ ProbeAnswer Prober::probe(Vec3d position, Vec3d normal) const {
     answer.relativeError = static_cast<double>(maps_.relativeError[texel]);
     answer.photons = static_cast<double>(maps_.photons[texel]);
   }
-  fillDirections(side, *point, answer);
+  fillDirections(side, *point, detail, answer);
   return answer;
 }
 
-void Prober::fillDirections(const SideMaps& side, const SurfacePoint& point, ProbeAnswer& answer) const {
+void Prober::fillDirections(const SideMaps& side, const SurfacePoint& point, ProbeDetail detail,
+                            ProbeAnswer& answer) const {
   const Bilinear weights(side, point.st);
   for (const SideDirection& member : side.directions) {
-    const ClippedCell cell = directions_.clippedCell(member.psi, point.normal);
     ProbeDirection out;
     out.psi = member.psi;
-    out.direction = cell.solidAngle > 0 ? normalize(cell.moment) : directions_.direction(member.psi);
-    out.solidAngle = cell.solidAngle;
-    out.meanCosine = cell.meanCosine();
+    if (detail == ProbeDetail::all) {
+      const ClippedCell cell = directions_.clippedCell(member.psi, point.normal);
+      out.direction = cell.solidAngle > 0 ? normalize(cell.moment) : directions_.direction(member.psi);
+      out.solidAngle = cell.solidAngle;
+      out.meanCosine = cell.meanCosine();
+    }
     if (member.stored()) out.irradiance = weights.of({maps_.directional.data() + member.first, side.texelCount()});
     answer.directions.push_back(out);
   }

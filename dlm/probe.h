@@ -31,6 +31,12 @@ struct ProbeAnswer {
   double photons = 0;                      // that fell into that texel
 };
 
+/// What of a ProbeDirection is asked for.
+enum class ProbeDetail {
+  all,
+  irradiance,  // not direction, solid angle and mean cosine, which take most of the time
+};
+
 class Prober {
  public:
   /// `dlm` must outlive the prober.
@@ -38,10 +44,10 @@ class Prober {
 
   /// Position in metres of the file's world; the normal need not be unit. InputError on a normal of length zero and on
   /// numbers that are not finite.
-  ProbeAnswer probe(Vec3d position, Vec3d normal) const;
+  ProbeAnswer probe(Vec3d position, Vec3d normal, ProbeDetail detail = ProbeDetail::all) const;
 
  private:
-  void fillDirections(const SideMaps& side, const SurfacePoint& point, ProbeAnswer& answer) const;
+  void fillDirections(const SideMaps& side, const SurfacePoint& point, ProbeDetail detail, ProbeAnswer& answer) const;
 
   const LightMaps& maps_;
   DirectionSet directions_;
