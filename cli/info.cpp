@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/contact_sheet.h"
 #include "base/json.h"
 #include "cli/commands.h"
 
@@ -14,9 +15,13 @@ void addInfo(CLI::App& app, Action& action) {
   const auto json = std::make_shared<bool>(false);
   cmd->add_option("PATH", *path, "the file or folder")->required();
   cmd->add_flag("--json", *json, "as JSON");
+  const auto picture = std::make_shared<std::string>();
+  cmd->add_option("--picture", *picture,
+                  "of a .dlm: write its atlas as one PNG: irradiance, error, photons and the light of each direction");
   cmd->callback([=, &action] {
     action = [=] {
       const nlohmann::json d = describe(*path);
+      if (!picture->empty()) writeContactSheet(*path, *picture);
       const std::string text = *json ? dumpJson(d) : toText(d);
       std::fputs(text.c_str(), stdout);
       if (!text.ends_with('\n')) std::fputc('\n', stdout);
