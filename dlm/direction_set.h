@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -47,10 +48,11 @@ class DirectionSet {
     const int x = std::min(std::max(static_cast<int>((px + 1) * half), 0), gridSize_ - 1);
     const int y = std::min(std::max(static_cast<int>((py + 1) * half), 0), gridSize_ - 1);
     const auto cell = static_cast<std::size_t>(y * gridSize_ + x);
-    const std::uint16_t only = only_[cell];
-    if (only != kSeveral) [[likely]]
-      return only;
-    return nearestOfSeveral(cell, w);
+    // Nearly all cells have one or two candidates; of two the nearer is told without a branch.
+    const auto [first, second] = two_[cell];
+    if (first == kSeveral) [[unlikely]]
+      return nearestOfSeveral(cell, w);
+    return first + (second - first) * static_cast<int>(dot(directionsF_[second], w) > dot(directionsF_[first], w));
   }
 
   /// Exact integrals over the cell of ψ above the plane of unit normal `n`; closed forms over spherical polygons.
@@ -88,7 +90,7 @@ class DirectionSet {
   int gridSize_ = 1;  // octahedral grid of candidate lists
   std::vector<std::uint32_t> gridFirst_;
   std::vector<std::uint16_t> gridCandidates_;
-  std::vector<std::uint16_t> only_;  // by cell: the one candidate, or kSeveral
+  std::vector<std::array<std::uint16_t, 2>> two_;  // by cell: its candidates, the one twice; kSeveral: more than two
 };
 
 }  // namespace lucarne

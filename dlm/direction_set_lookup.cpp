@@ -99,7 +99,10 @@ void DirectionSet::buildLookup() {
   for (const Candidates& list : lists) {
     gridCandidates_.insert(gridCandidates_.end(), list.begin(), list.end());
     gridFirst_.push_back(static_cast<std::uint32_t>(gridCandidates_.size()));
-    only_.push_back(list.size() == 1 ? list[0] : kSeveral);
+    if (list.size() <= 2)
+      two_.push_back({list.front(), list.back()});
+    else
+      two_.push_back({kSeveral, kSeveral});
   }
 }
 

@@ -175,9 +175,15 @@ class PhotonPath {
     return roulette(corrected, fixedCorrected, u);
   }
 
+  /// maxComponent() without a branch, which could not be foretold.
+  static float largest(Rgb v) {
+    const float yz = v.y < v.z ? v.z : v.y;
+    return v.x < yz ? yz : v.x;
+  }
+
   /// Survival in proportion to what is left of the photon, so that beta stays nearly constant.
   [[gnu::always_inline]] bool roulette(Rgb onward, const FixedRgb& fixedOnward, float u) {
-    const float left = maxComponent(onward);
+    const float left = largest(onward);
     if (!(u * reference_ < left)) {  // p = min(1, left / reference)
       sums_.roulette += fixedOnward;
       return false;
