@@ -8,6 +8,7 @@
 #include "distributed/photon_run.h"
 #include "dlm/atlas.h"
 #include "dlm/light_maps.h"
+#include "dlm/resolve.h"
 #include "dlm/seam_fit.h"
 #include "dlm/texel_contacts.h"
 

@@ -57,7 +57,10 @@ TEST(ParseJson, RefusesDeepNestingButNotBracketsInText) {
   EXPECT_TRUE(parse(nested(kMaxJsonDepth)).is_array());
   EXPECT_THAT(errorOf(ExitCode::badInput, [&] { parse(nested(kMaxJsonDepth + 1)); }), HasSubstr("deep"));
   EXPECT_THAT(errorOf(ExitCode::badInput, [] { parse(std::string(1'000'000, '[')); }), HasSubstr("deep"));
-  EXPECT_TRUE(parse("\"\\\"" + std::string(1000, '[') + "\"").is_string());
+  std::string quoted(1000, '[');
+  quoted.insert(0, "\"\\\"");
+  quoted.push_back('"');
+  EXPECT_TRUE(parse(quoted).is_string());
 }
 
 TEST(JsonView, ReadsEveryKind) {

@@ -18,6 +18,7 @@
 #include "app/bake_scene.h"
 #include "base/float_mode.h"
 #include "tests/bench/raw_tracer.h"
+#include "tracer/transport/photon_tracer.h"
 
 namespace lucarne::bench {
 namespace {

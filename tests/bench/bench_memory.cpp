@@ -12,6 +12,7 @@
 #include "base/float_mode.h"
 #include "dlm/deposit.h"
 #include "tests/bench/bench_measure.h"
+#include "tracer/transport/photon_tracer.h"
 
 namespace lucarne::bench {
 namespace {

@@ -14,6 +14,7 @@
 #include "app/bake_scene.h"
 #include "app/builtin_scene.h"
 #include "tracer/optics/warp.h"
+#include "tracer/transport/photon_tracer.h"
 #include "tracer/scene/gltf_reader.h"
 
 namespace lucarne {
