@@ -12,7 +12,6 @@ namespace {
 
 using test::BakedScene;
 using test::smallBakedScene;
-using test::TempFolder;
 
 LightMaps reread(const BakedScene& scene, const DlmFormat& format) {
   const TempFolder folder;

@@ -9,6 +9,7 @@
 
 #include "tests/tracer/closed_meshes.h"
 #include "tests/tracer/photon_runs.h"
+#include "tracer/transport/meet.h"
 
 namespace lucarne {
 namespace {
