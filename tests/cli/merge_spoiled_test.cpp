@@ -61,7 +61,7 @@ struct Damage {
   const char* words;
 };
 
-// A row of statistics has 32780 bytes, one of light 49164, one of the scene 8204; the seal 24.
+// A row of statistics or of light has 49164 bytes, one of the scene 8204; the seal 24.
 constexpr Damage kDamages[] = {
     {"empty", cutTo<0>, "x.part"},
     {"cut within the first word", cutTo<3>, "cut short"},
@@ -84,9 +84,9 @@ constexpr Damage kDamages[] = {
     {"offset of the last row flipped", [](std::string& b) { b[b.find("scanlineimage", b.find("m2.lo")) + 15] ^= 1; },
      "altered"},
     {"scene flipped", [](std::string& b) { replace(b, "\"primitives\"", "\"Primitives\""); }, "altered"},
-    {"row head of the statistics flipped", flipBack<24 + 32780 - 4>, "altered"},
-    {"a count flipped", flipBack<24 + 32768 - 8192>, "altered"},
-    {"a light tally flipped", flipBack<24 + 32780 + 49152 - 8192>, "altered"},
+    {"row head of the statistics flipped", flipBack<24 + 49164 - 4>, "altered"},
+    {"a count flipped", flipBack<24 + 49152 - 8192>, "altered"},
+    {"a light tally flipped", flipBack<24 + 49164 + 49152 - 8192>, "altered"},
     {"padding flipped", flipBack<25>, "altered"},
     {"mark of the seal flipped", flipBack<24>, "altered"},
     {"hash of the seal flipped", flipBack<1>, "altered"},

@@ -120,12 +120,13 @@ TEST_F(ExrRowsFile, KeepsTheBytesOfTheScene) {
 TEST_F(ExrRowsFile, KeepsEveryTallyToTheLastBit) {
   const Channels light = readLayer(*file_, 1), statistics = readLayer(*file_, 2);
   EXPECT_EQ(namesOf(light), (std::vector<std::string>{"b.hi", "b.lo", "g.hi", "g.lo", "r.hi", "r.lo"}));
-  EXPECT_EQ(namesOf(statistics), (std::vector<std::string>{"count.hi", "count.lo", "m2.hi", "m2.lo"}));
+  EXPECT_EQ(namesOf(statistics), (std::vector<std::string>{"count.hi", "count.lo", "m2.hi", "m2.lo", "odd.hi", "odd.lo"}));
   expectValues(light, "r", part_.tallies.light(), 3, 0);
   expectValues(light, "g", part_.tallies.light(), 3, 1);
   expectValues(light, "b", part_.tallies.light(), 3, 2);
-  expectValues(statistics, "count", part_.tallies.statistics(), 2, 0);
-  expectValues(statistics, "m2", part_.tallies.statistics(), 2, 1);
+  expectValues(statistics, "count", part_.tallies.statistics(), 3, 0);
+  expectValues(statistics, "m2", part_.tallies.statistics(), 3, 1);
+  expectValues(statistics, "odd", part_.tallies.statistics(), 3, 2);
 }
 
 TEST(ExrRows, TextAttributesAreFoundOnlyWhenWhole) {
