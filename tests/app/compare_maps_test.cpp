@@ -41,7 +41,7 @@ class CompareMaps : public testing::Test {
   }
   void write(const std::string& name, const BakedScene& b, const LightMaps& maps) {
     DlmFormat format;
-    format.directional = ChannelType::float32;
+    format.directional = MapFormat::float32;
     writeDlm(folder_ / name, b.scene, b.baked.uv, maps, nlohmann::json::object(), format);
   }
   void write(const std::string& name, const BakedScene& b) { write(name, b, b.baked.maps); }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/bake_fixture.h"
+#include "tracer/transport/any_sink.h"
 
 namespace lucarne {
 namespace {

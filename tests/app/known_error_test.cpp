@@ -119,8 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
                       KnownErrorCase{"small bright lights", test::threeLights, 50'000, 4},
                       KnownErrorCase{"sky through a window", test::windowRoom, 50'000, 4, SamplerKind::sobol, true},
                       KnownErrorCase{"gathered", diffuseRoom, 20'000, 3, SamplerKind::sobol, false, 9}),
-    [](const auto& info) {
-      std::string name = info.param.name;
+    [](const auto& one) {
+      std::string name = one.param.name;
       std::replace(name.begin(), name.end(), ' ', '_');
       return name;
     });
