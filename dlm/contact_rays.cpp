@@ -1,5 +1,11 @@
 #include "dlm/contact_rays.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <unordered_map>
@@ -13,11 +19,48 @@ constexpr std::array<Vec3d, 9> kDirections = {Vec3d{0, 0, 1},  {kB, kA, kUp},  {
                                               {-kA, kB, kUp},  {-kB, kA, kUp}, {-kB, -kA, kUp},
                                               {-kA, -kB, kUp}, {kA, -kB, kUp}, {kB, -kA, kUp}};
 
+bool stopsLight(const Material& m) { return !m.hasAlpha() && !m.transmits(); }
+
+/// Looks for a sole under a place of a chart.
+struct SoleSearch {
+  const ContactScene& in;
+  std::uint32_t chart;
+  Vec3d place, normal;
+  double touching, depth;
+  bool found = false;
+
+  bool isSole(std::uint32_t t) const {
+    const Scene& scene = in.scene;
+    if (in.charts.chartOfTriangle[t] == chart || !stopsLight(scene.materials[scene.triangles[t].material]))
+      return false;
+    const Vec3d p0(scene.corner(t, 0)), e1 = Vec3d(scene.corner(t, 1)) - p0, e2 = Vec3d(scene.corner(t, 2)) - p0,
+                                        scaled = cross(e1, e2), d = place - p0;
+    const double square = dot(scaled, scaled);
+    if (!(square > 0) || dot(normalize(scaled), normal) > -0.996) return false;
+    const double up = dot(normal, p0 - place);
+    const double b1 = dot(cross(d, e2), scaled) / square, b2 = dot(cross(e1, d), scaled) / square;
+    return up <= touching && up >= -depth && b1 >= 0 && b2 >= 0 && b1 + b2 <= 1;
+  }
+  static bool visit(RTCPointQueryFunctionArguments* arguments) {
+    SoleSearch& self = *static_cast<SoleSearch*>(arguments->userPtr);
+    self.found = self.found || self.isSole(arguments->primID);
+    return false;
+  }
+  bool run() {
+    RTCPointQuery query{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), 0,
+                        static_cast<float>(depth * (1 + 1e-5) + touching)};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(in.caster.embreeScene(), &query, &context, &SoleSearch::visit, this);
+    return found;
+  }
+};
+
 /// Casts from places that it finds triangles for.
 class Caster {
  public:
   Caster(const ContactScene& in, std::uint32_t chart, bool back)
-      : in_(in), layout_(in.layout.charts[chart]), back_(back), height_(contactHeight(layout_)) {}
+      : in_(in), layout_(in.layout.charts[chart]), chart_(chart), back_(back), height_(contactHeight(layout_)) {}
 
   /// Nothing where the triangle does not hold the place.
   RayVotes cast(std::uint32_t triangle, Vec2d st) const {
@@ -33,7 +76,13 @@ class Caster {
     const Scene& scene = in_.scene;
     const Vec3d p0(scene.corner(triangle, 0)), p1(scene.corner(triangle, 1)), p2(scene.corner(triangle, 2));
     const Vec3d n = normalize(back_ ? -scene.scaledNormal(triangle) : scene.scaledNormal(triangle));
-    return castFrom(p0 + (p1 - p0) * b1 + (p2 - p0) * b2 + n * height_, n);
+    const Vec3d place = p0 + (p1 - p0) * b1 + (p2 - p0) * b2;
+    RayVotes votes = castFrom(place + n * height_, n);
+    constexpr double kTexelsUnder = 16;  // heights: one texel
+    SoleSearch search{
+        in_, chart_, place, n, 4 * static_cast<double>(in_.caster.clearance(triangle)), kTexelsUnder * height_};
+    if (votes.backs > 0 && search.run()) votes.soles = votes.rays;
+    return votes;
   }
 
  private:
@@ -42,21 +91,24 @@ class Caster {
     const Frame<double> frame(n);
     for (const Vec3d& d : kDirections) {
       ++votes.rays;
-      votes.backs += meetsBack(Vec3f(origin), normalize(Vec3f(frame.toWorld(d)))) ? 1 : 0;
+      countBack(Vec3f(origin), normalize(Vec3f(frame.toWorld(d))), votes);
     }
     return votes;
   }
 
-  bool meetsBack(Vec3f origin, Vec3f direction) const {
+  void countBack(Vec3f origin, Vec3f direction, RayVotes& votes) const {
     std::uint64_t repeats = 0;
     const std::uint32_t met = in_.caster.nearest(origin, direction, kNone, repeats);
-    if (met == kNone) return false;
+    if (met == kNone) return;
     const Material& m = in_.scene.materials[in_.scene.triangles[met].material];
-    return !m.doubleSided && !m.transmits() && !m.hasAlpha() && in_.caster.intersect(met, origin, direction).back;
+    if (!stopsLight(m) || !in_.caster.intersect(met, origin, direction).back) return;
+    ++votes.backs;
+    votes.blackBacks += m.doubleSided ? 0 : 1;
   }
 
   const ContactScene& in_;
   const ChartLayout& layout_;
+  std::uint32_t chart_;
   bool back_;
   double height_;
 };

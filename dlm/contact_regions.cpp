@@ -138,8 +138,11 @@ void ContactRegions::findShut(const std::vector<Place>& places) {
     for (; i < places.size() && places[i].region == region; ++i) {
       sum.rays += votes[i].rays;
       sum.backs += votes[i].backs;
+      sum.blackBacks += votes[i].blackBacks;
+      sum.soles += votes[i].soles;
     }
-    if (3 * sum.backs > 2 * sum.rays) kinds_[region] = RegionKind::shut;
+    const int most = 2 * sum.rays / 3;
+    if (sum.blackBacks > most || (sum.backs > most && sum.soles > most)) kinds_[region] = RegionKind::shut;
   }
 }
 

@@ -2,7 +2,8 @@
 //
 // Groups of places (contact_groups.h) of neighbouring texels that see each other along the surface join into regions; a
 // texel without contact is one group. A region is
-//   shut    inside of a solid: most rays from it meet backs of one-sided triangles;
+//   shut    inside of a solid: most rays from it meet backs of one-sided triangles; or of any, and the sole of the
+//           solid is under most of it (a chest whose material is two-sided);
 //   pocket  no wider than a table leg: less than three texels, or nowhere half a texel. Whatever goes on in there (it
 //   may
 //           be the inside of a leg whose material is two-sided), its light is no light of the surface around it;
