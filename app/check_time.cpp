@@ -25,16 +25,15 @@ class WasteSink {
   explicit WasteSink(const Ledger& ledger) : ledger_(ledger) {}
   void hit(const PhotonHit&) { ++hits; }
   void endPhoton() {
-    if (hits == hitsBefore_) ++(ledger_.escaped == escapedBefore_ ? lost : missed);
+    if (hits == hitsBefore_) ++(ledger_.hits == allHitsBefore_ ? missed : lost);
     hitsBefore_ = hits;
-    escapedBefore_ = ledger_.escaped;
+    allHitsBefore_ = ledger_.hits;
   }
   std::uint64_t hits = 0, missed = 0, lost = 0;
 
  private:
   const Ledger& ledger_;
-  FluxSum escapedBefore_;
-  std::uint64_t hitsBefore_ = 0;
+  std::uint64_t hitsBefore_ = 0, allHitsBefore_ = 0;  // the latter with those on black backs
 };
 
 double sumOf(const FluxSum& f) { return static_cast<double>(f.units[0] + f.units[1] + f.units[2]); }

@@ -38,7 +38,7 @@ Rgb unpackRgb9e5(std::uint32_t bits) {
 std::uint32_t packLdr8(Rgb value, float scale) {
   std::uint32_t bits = 0;
   for (int c = 0; c < 3; ++c) {
-    const float share = scale > 0 ? clampValue(value[c]) / scale : 0.f;
+    const float share = scale > 0 && value[c] > 0 ? value[c] / scale : 0.f;
     const auto code = static_cast<std::uint32_t>(std::lround(255 * std::sqrt(std::min(share, 1.f))));
     bits |= code << (8 * c);
   }

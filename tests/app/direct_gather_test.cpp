@@ -109,8 +109,8 @@ TEST(GatheredAlone, UnderABulbIsTheInverseSquare) {
   EXPECT_EQ(b.baked.ledger.photons, 0u) << "no photon is needed";
   const SideMaps& side = b.baked.maps.sides.at(0);
   ASSERT_EQ(side.texelCount(), 256u);
-  // Of a function that is smooth over a texel, 16 stratified places give a mean far better than its spread of some
-  // percent; what is left is a bound on both.
+  // Of a function that is smooth over a texel, two sets of four stratified places give a mean far better than its spread
+  // of some percent; what is left is a bound on both.
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) {
       double expected = 0;  // mean over the texel
@@ -119,7 +119,7 @@ TEST(GatheredAlone, UnderABulbIsTheInverseSquare) {
         expected += 100 * 0.8 / std::pow(u * u + v * v + 0.64, 1.5) / 64;
       }
       const Rgb e = b.baked.maps.irradiance[side.firstTexel + static_cast<std::uint64_t>(16 * y + x)];
-      EXPECT_NEAR(static_cast<double>(e.x) / expected, 1, 0.015) << x << " " << y;
+      EXPECT_NEAR(static_cast<double>(e.x) / expected, 1, 0.02) << x << " " << y;
       EXPECT_NEAR(static_cast<double>(e.y / e.x), 0.5, 1e-4);
     }
 }

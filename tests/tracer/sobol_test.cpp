@@ -76,7 +76,7 @@ TEST(SobolSampler, GivesTheSameWordsEveryTime) {
   // Whatever the compiler and the machine: bakes are repeated on others.
   EXPECT_EQ(SobolSampler(0, 0).words(0, Stream::emission), (Words{2386165368u, 137045325u, 1820597669u, 664637878u}));
   EXPECT_EQ(SobolSampler(42, (std::uint64_t{1} << 40) + 7).words(3, Stream::scatter),
-            (Words{4009297485u, 1921684662u, 4105106981u, 838422494u}));
+            (Words{2498698677u, 701889885u, 1770734695u, 2276838150u}));
 }
 
 TEST(SobolSampler, StreamsEventsPhotonsAndSeedsAreAllDifferent) {
