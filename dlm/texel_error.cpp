@@ -54,7 +54,7 @@ NeighbourSquares::Sums NeighbourSquares::window(int x, int y, int radius) const 
 }
 
 double NeighbourSquares::density(int x, int y, int smallestRadius) const {
-  for (int radius = smallestRadius;; radius *= 2) {
+  for (int radius = std::max(1, smallestRadius);; radius *= 2) {
     const Sums sums = window(x, y, radius);
     const bool whole = radius >= std::max(width_, height_);
     if (sums.photons < kEnoughPhotons && !whole) continue;

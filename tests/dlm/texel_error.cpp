@@ -1,0 +1,48 @@
+// The pieces that a texel's standard error is made of.
+#include "dlm/texel_error.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace lucarne {
+namespace {
+
+TEST(TexelError, TheNeighbourhoodGrowsUntilItHasPhotonsFromAnySmallestRadius) {
+  const int width = 9, height = 7;
+  std::vector<double> photons(63, 0.0), squares(63, 0.0);
+  const std::vector<double> area(63, 0.5);
+  photons[3 * width + 4] = 40;
+  squares[3 * width + 4] = 80;
+  const NeighbourSquares n(width, height, photons, squares, area);
+  for (const int radius : {0, 1, 2, 100}) {
+    EXPECT_GT(n.density(4, 3, radius), 0) << radius;
+    EXPECT_GT(n.density(0, 0, radius), 0) << radius;
+  }
+  EXPECT_NEAR(n.density(4, 3, 0), 80 / 4.5, 1e-12);   // 3 × 3 texels
+  EXPECT_NEAR(n.density(4, 3, 100), 80 / 31.5, 1e-12);
+  EXPECT_EQ(NeighbourSquares(width, height, std::vector<double>(63, 0.0), std::vector<double>(63, 0.0), area).density(1, 1, 0), 0);
+}
+
+TEST(TexelError, TheRatioIsThatOfTheDifferencesAndOneWhereNothingIsKnown) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0, 1);
+  std::vector<double> differences;
+  for (int i = 0; i < 20'000; ++i) differences.push_back(0.8 * normal(random));
+  const std::vector<double> variances(differences.size(), 1.0), many(differences.size(), 100.0), few(differences.size(), 1.0);
+  const ErrorRatio known = measureErrorRatio(differences, variances, many, 5);
+  EXPECT_NEAR(errorRatio(known, known), 0.64, 0.02);
+  const ErrorRatio unknown = measureErrorRatio(differences, variances, few, 5);
+  EXPECT_EQ(unknown.texels, 0);
+  EXPECT_EQ(errorRatio(unknown, unknown), 1);
+  EXPECT_NEAR(errorRatio(unknown, known), 0.64, 0.02) << "a side that says nothing is as the others are";
+}
+
+TEST(TexelError, NeighboursCountForAllWhereThereAreNoPhotonsAndForNothingWhereThereAreMany) {
+  EXPECT_EQ(neighbourShare(0), 1);
+  EXPECT_NEAR(neighbourShare(3), 0.5, 1e-12);
+  EXPECT_LT(neighbourShare(100), 1e-3);
+}
+
+}  // namespace
+}  // namespace lucarne
