@@ -166,10 +166,10 @@ void resolveSide(ResolveRun& run, std::size_t index) {
 
 /// With the ratios of all sides known.
 void fillErrors(const std::vector<SideErrors>& errors, LightMaps& maps) {
-  ErrorRatio photons, direct;
+  ErrorRatios photons, direct;
   for (const SideErrors& e : errors) {
-    photons += e.photons.ratio;
-    direct += e.direct.ratio;
+    photons += e.photons.ratios;
+    direct += e.direct.ratios;
   }
   tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t s) {
     const SideMaps& side = maps.sides[s];

@@ -44,6 +44,18 @@ std::vector<float> deviationsOf(const std::vector<double>& variances) {
   return deviations;
 }
 
+std::vector<std::uint8_t> classesOf(const std::vector<double>& photons) {
+  std::vector<std::uint8_t> classes;
+  for (const double n : photons) classes.push_back(ErrorRatios::classOf(n));
+  return classes;
+}
+
+/// Luminance of a texel's samples times its area, lx: what filters take.
+std::vector<double> luxOf(const SideInput& s, std::vector<double> units) {
+  for (std::size_t t = 0; t < units.size(); ++t) units[t] *= s.area()[t] * s.scales.direct;
+  return units;
+}
+
 /// Σ k²·Σx² over (Σ k·area)², in squares of units: from the texels' own photons, and where those are few from their
 /// neighbours' instead.
 std::vector<double> squaresUnderKernel(const SideInput& s, const std::vector<double>& photonsUnderKernel) {
@@ -85,7 +97,8 @@ SetErrors photonErrors(const SideInput& s, const std::vector<Rgbd>& irradiance) 
   const std::vector<double> odd = channelOf(statistics, kOdd);
   for (std::size_t t = 0; t < odd.size(); ++t) differences[t] = (differences[t] - 2 * odd[t]) * s.scales.photons;
   differences = s.resolver.filterValues(differences);
-  return {deviationsOf(variances), measureErrorRatio(differences, variances, photons, overlapOf(s.kernel))};
+  return {deviationsOf(variances), classesOf(photons),
+          measureErrorRatios(differences, variances, photons, overlapOf(s.kernel))};
 }
 
 /// Of a texel's mean over N samples: (Σx²/N − mean²)/(N − 1), luminance, weighted as resolve.h weights the means. lx².
@@ -106,26 +119,32 @@ std::vector<double> directVariances(const SideInput& s, const std::vector<double
 SetErrors directErrors(const SideInput& s) {
   const std::vector<double> units = luminanceUnits(s, *s.in.tallies.direct());
   const std::vector<double> variances = directVariances(s, units);
-  SetErrors errors{deviationsOf(variances), {}};
+  // A texel's samples are as good as so many photons.
+  std::vector<double> worth = s.resolver.filterValues(luxOf(s, units));
+  for (std::size_t t = 0; t < worth.size(); ++t)
+    worth[t] = variances[t] > 0 ? std::max(kEnoughPhotons, worth[t] * worth[t] / variances[t]) : 0;
+  SetErrors errors{deviationsOf(variances), classesOf(worth), {}};
   const double odd = static_cast<double>(s.in.oddSamples), even = static_cast<double>(s.in.samples) - odd;
   if (!(odd > 0 && even > 0)) return errors;
   std::vector<double> differences = channelOf(statisticsOf(*s.in.tallies.direct(), s.side), kOdd);
   const double scale = std::sqrt(odd * even) * s.scales.direct;
   for (std::size_t t = 0; t < differences.size(); ++t)
     differences[t] = ((units[t] - differences[t]) / even - differences[t] / odd) * scale * s.area()[t];
-  const std::vector<double> enough(units.size(), static_cast<double>(s.in.samples));
-  errors.ratio =
-      measureErrorRatio(s.resolver.filterValues(differences), variances, enough, overlapOf(s.kernel));
+  errors.ratios =
+      measureErrorRatios(s.resolver.filterValues(differences), variances, worth, overlapOf(s.kernel));
   return errors;
 }
 
 }  // namespace
 
-std::vector<float> SideErrors::deviations(const ErrorRatio& allPhotons, const ErrorRatio& allDirect) const {
+std::vector<float> SideErrors::deviations(const ErrorRatios& allPhotons, const ErrorRatios& allDirect) const {
   std::vector<float> all(std::max(photons.deviations.size(), direct.deviations.size()));
   for (const auto& [set, sum] : {std::pair{&photons, &allPhotons}, {&direct, &allDirect}}) {
-    const auto factor = static_cast<float>(std::sqrt(errorRatio(set->ratio, *sum)));
-    for (std::size_t t = 0; t < set->deviations.size(); ++t) all[t] = std::hypot(all[t], factor * set->deviations[t]);
+    std::array<float, 256> factor{};
+    for (const std::uint8_t c : set->photonClasses)
+      if (factor[c] == 0) factor[c] = static_cast<float>(std::sqrt(errorRatio(set->ratios, *sum, c)));
+    for (std::size_t t = 0; t < set->deviations.size(); ++t)
+      all[t] = std::hypot(all[t], factor[set->photonClasses[t]] * set->deviations[t]);
   }
   return all;
 }
@@ -141,10 +160,9 @@ LevelEstimate estimateOf(const SideInput& s) {
     for (std::size_t t = 0; t < irradiance.size(); ++t) estimate.value[t] = irradiance[t].y;
   }
   if (s.in.samples == 0) return estimate;
-  std::vector<double> units = luminanceUnits(s, *s.in.tallies.direct());
+  const std::vector<double> units = luminanceUnits(s, *s.in.tallies.direct());
   const std::vector<double> variances = directVariances(s, units);
-  for (std::size_t t = 0; t < units.size(); ++t) units[t] *= s.area()[t] * s.scales.direct;
-  const std::vector<double> values = s.resolver.filterValues(units);
+  const std::vector<double> values = s.resolver.filterValues(luxOf(s, units));
   for (std::size_t t = 0; t < units.size(); ++t) {
     estimate.value[t] += values[t];
     estimate.variance[t] = std::max(0.0, estimate.variance[t]) + variances[t];

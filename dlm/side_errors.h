@@ -10,14 +10,15 @@ namespace lucarne {
 
 /// Of one set of tallies; empty where the set says nothing.
 struct SetErrors {
-  std::vector<float> deviations;  // of independent photons, lx
-  ErrorRatio ratio;
+  std::vector<float> deviations;             // of independent photons, lx
+  std::vector<std::uint8_t> photonClasses;   // see ErrorRatios
+  ErrorRatios ratios;
 };
 
 struct SideErrors {
   SetErrors photons, direct;
   /// Standard errors, lx, by texel; `all…`: sums of the ratios over all sides.
-  std::vector<float> deviations(const ErrorRatio& allPhotons, const ErrorRatio& allDirect) const;
+  std::vector<float> deviations(const ErrorRatios& allPhotons, const ErrorRatios& allDirect) const;
 };
 
 /// `photonIrradiance`: of the first set, filtered; lx.

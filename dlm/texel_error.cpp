@@ -1,27 +1,49 @@
 #include "dlm/texel_error.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "base/error.h"
 
 namespace lucarne {
 
-double errorRatio(const ErrorRatio& side, const ErrorRatio& all) {
-  // As many texels as outweigh what is believed without them.
-  constexpr double kOfAll = 32, kOfSide = 16;
-  const double whole = (all.squares + kOfAll) / (all.texels + kOfAll);
-  return (side.squares + kOfSide * whole) / (side.texels + kOfSide);
+std::uint8_t ErrorRatios::classOf(double photons) {
+  constexpr std::uint8_t kLast = std::tuple_size_v<decltype(classes_)> - 1;
+  std::uint8_t c = 0;
+  for (double most = 4 * kEnoughPhotons; photons >= most && c < kLast; most *= 4) ++c;
+  return c;
 }
 
-ErrorRatio measureErrorRatio(std::span<const double> differences, std::span<const double> variances,
-                             std::span<const double> photons, double overlap) {
-  ErrorRatio ratio;
+ErrorRatios& ErrorRatios::operator+=(const ErrorRatios& o) {
+  for (std::size_t c = 0; c < classes_.size(); ++c) classes_[c] += o.classes_[c];
+  return *this;
+}
+
+ErrorRatio ErrorRatios::total() const {
+  ErrorRatio sum;
+  for (const ErrorRatio& c : classes_) sum += c;
+  return sum;
+}
+
+double errorRatio(const ErrorRatios& side, const ErrorRatios& all, std::size_t photonClass) {
+  // As many texels as outweigh what is believed without them.
+  constexpr double kOfAll = 32, kOfSome = 16;
+  const auto told = [](const ErrorRatio& r, double believed, double weight) {
+    return (r.squares + weight * believed) / (r.texels + weight);
+  };
+  const double whole = told(all.total(), 1, kOfAll);
+  const double ofClass = told(all[photonClass], whole, kOfSome), ofSide = told(side.total(), whole, kOfSome);
+  return told(side[photonClass], ofSide * ofClass / whole, kOfSome);
+}
+
+ErrorRatios measureErrorRatios(std::span<const double> differences, std::span<const double> variances,
+                               std::span<const double> photons, double overlap) {
+  ErrorRatios ratios;
   for (std::size_t t = 0; t < differences.size(); ++t) {
     if (photons[t] < kEnoughPhotons || !(variances[t] > 0)) continue;
-    ratio.squares += differences[t] * differences[t] / variances[t] / overlap;
-    ratio.texels += 1 / overlap;
+    ratios[ErrorRatios::classOf(photons[t])] += {differences[t] * differences[t] / variances[t] / overlap, 1 / overlap};
   }
-  return ratio;
+  return ratios;
 }
 
 NeighbourSquares::NeighbourSquares(int width, int height, std::span<const double> photons,

@@ -86,8 +86,9 @@ TEST(PointLight, OverAPlaneReadsIntensityCosineOverSquareDistance) {
   const ProbedBake probe(b, "point_light");
   double worst = 0;
   int questions = 0;
-  for (double x = -1.9; x < 2; x += 0.2)
-    for (double z = -1.9; z < 2; z += 0.2) {
+  // Off the border, where kernels are cut and so lean inward.
+  for (double x = -1.7; x < 1.8; x += 0.2)
+    for (double z = -1.7; z < 1.8; z += 0.2) {
       const Vec3d p{x, 0, z}, d = l.position - p;
       const double expected = 800 * l.position.y / std::pow(length(d), 3);
       const ProbeAnswer a = probe.at(p, {0, 1, 0});
@@ -97,8 +98,8 @@ TEST(PointLight, OverAPlaneReadsIntensityCosineOverSquareDistance) {
       worst = std::max(worst, (std::abs(a.irradiance.y / expected - 1) - bias) / a.relativeError);
       ++questions;
     }
-  EXPECT_EQ(questions, 400);
-  EXPECT_LT(worst, test::zThreshold(400));
+  EXPECT_EQ(questions, 324);
+  EXPECT_LT(worst, test::zThreshold(324));
 }
 
 /// Irradiance below a corner of a horizontal rectangle a × b at height h, of radiance 1: the configuration factor of a differential

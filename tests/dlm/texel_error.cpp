@@ -30,12 +30,27 @@ TEST(TexelError, TheRatioIsThatOfTheDifferencesAndOneWhereNothingIsKnown) {
   std::vector<double> differences;
   for (int i = 0; i < 20'000; ++i) differences.push_back(0.8 * normal(random));
   const std::vector<double> variances(differences.size(), 1.0), many(differences.size(), 100.0), few(differences.size(), 1.0);
-  const ErrorRatio known = measureErrorRatio(differences, variances, many, 5);
-  EXPECT_NEAR(errorRatio(known, known), 0.64, 0.02);
-  const ErrorRatio unknown = measureErrorRatio(differences, variances, few, 5);
-  EXPECT_EQ(unknown.texels, 0);
-  EXPECT_EQ(errorRatio(unknown, unknown), 1);
-  EXPECT_NEAR(errorRatio(unknown, known), 0.64, 0.02) << "a side that says nothing is as the others are";
+  const ErrorRatios known = measureErrorRatios(differences, variances, many, 5);
+  const std::size_t c = ErrorRatios::classOf(100);
+  EXPECT_NEAR(errorRatio(known, known, c), 0.64, 0.02);
+  EXPECT_NEAR(errorRatio(known, known, c + 1), 0.64, 0.02) << "a class that says nothing is as the others are";
+  const ErrorRatios unknown = measureErrorRatios(differences, variances, few, 5);
+  EXPECT_EQ(unknown.total().texels, 0);
+  EXPECT_EQ(errorRatio(unknown, unknown, c), 1);
+  EXPECT_NEAR(errorRatio(unknown, known, c), 0.64, 0.02) << "a side that says nothing is as the others are";
+}
+
+TEST(TexelError, ClassesOfPhotonsAreToldApart) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal(0, 1);
+  std::vector<double> differences, photons;
+  for (int i = 0; i < 20'000; ++i) {
+    photons.push_back(i % 2 == 0 ? 20 : 5000);
+    differences.push_back((i % 2 == 0 ? 1 : 0.5) * normal(random));
+  }
+  const ErrorRatios ratios = measureErrorRatios(differences, std::vector<double>(20'000, 1.0), photons, 5);
+  EXPECT_NEAR(errorRatio(ratios, ratios, ErrorRatios::classOf(20)), 1, 0.04);
+  EXPECT_NEAR(errorRatio(ratios, ratios, ErrorRatios::classOf(5000)), 0.25, 0.02);
 }
 
 TEST(TexelError, NeighboursCountForAllWhereThereAreNoPhotonsAndForNothingWhereThereAreMany) {
