@@ -74,7 +74,7 @@ LevelChoice chooseLevels(int width, int height, const std::vector<LevelEstimate>
   return choice;
 }
 
-LevelResolver::LevelResolver(int width, int height, std::span<const double> area, const std::vector<Kernel>& kernels,
+LevelResolver::LevelResolver(int width, int height, std::span<const double> area, std::span<const Kernel> kernels,
                              const SideContacts& contacts) {
   resolvers_.reserve(kernels.size());
   for (const Kernel& kernel : kernels) resolvers_.emplace_back(width, height, area, kernel, contacts);

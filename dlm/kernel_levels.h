@@ -34,7 +34,8 @@ LevelChoice chooseLevels(int width, int height, const std::vector<LevelEstimate>
 /// The resolvers of a side's kernels, of which each texel uses one; filters as SideResolver does.
 class LevelResolver {
  public:
-  LevelResolver(int width, int height, std::span<const double> area, const std::vector<Kernel>& kernels,
+  /// `kernels` and `contacts` must outlive this.
+  LevelResolver(int width, int height, std::span<const double> area, std::span<const Kernel> kernels,
                 const SideContacts& contacts);
   LevelResolver(const LevelResolver&) = delete;
   LevelResolver& operator=(const LevelResolver&) = delete;

@@ -122,7 +122,7 @@ KernelBias chooseKernels(const ResolveRun& run, const TallySide& side, const Sid
   std::vector<bool> hasSurface;
   for (std::size_t t = 0; t < area.size(); ++t) hasSurface.push_back(area[t] * contacts.share(t) > 0 && !contacts.hidden(t));
   for (const Kernel& kernel : run.kernels) {
-    const LevelResolver one(side.width, side.height, area, {kernel}, contacts);
+    const LevelResolver one(side.width, side.height, area, std::span(&kernel, 1), contacts);
     estimates.push_back(estimateOf({run.in, side, one, kernel, contacts, run.scales}));
     own.emplace_back(area.begin(), area.end());
     for (std::size_t t = 0; t < area.size(); ++t) own.back()[t] *= contacts.share(t) * one.level(0).inverseArea()[t];
