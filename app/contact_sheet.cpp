@@ -165,7 +165,7 @@ class Rows {
 /// Height of a grid of the atlas as drawn in a square of `side` pixels.
 int drawnHeight(const LightMaps& maps, int side) {
   const AtlasGrid grid(maps, side);
-  return grid.height() * std::max(1, side / std::max(grid.width(), grid.height()));
+  return drawnLength(grid, grid.height(), side);
 }
 
 int layOut(const Dlm& dlm, const std::string& title, int width, Canvas* canvas) {

@@ -44,14 +44,18 @@ void AtlasGrid::add(int x, int y, Vec3d value) {
   count_[i] += 1;
 }
 
+int drawnLength(const AtlasGrid& grid, int cells, int side) {
+  return static_cast<int>(static_cast<std::int64_t>(cells) * side / std::max(grid.width(), grid.height()));
+}
+
 void drawPanel(const SheetPanel& panel, int x, int y, int side, Canvas& canvas) {
   drawCaption(panel, x, y, canvas);
   const AtlasGrid& grid = panel.grid;
-  const int zoom = std::max(1, side / std::max(grid.width(), grid.height())), top = y + kPanelCaption;
+  const auto at = [&](int cells) { return drawnLength(grid, cells, side); };
   for (int row = 0; row < grid.height(); ++row) {
     for (int column = 0; column < grid.width(); ++column) {
       const DisplayColour c = grid.covered(column, row) ? panel.colour(grid.mean(column, row)) : kNoChart;
-      canvas.fill(x + column * zoom, top + row * zoom, zoom, zoom, c);
+      canvas.fill(x + at(column), y + kPanelCaption + at(row), at(column + 1) - at(column), at(row + 1) - at(row), c);
     }
   }
 }

@@ -53,8 +53,9 @@ struct SheetPanel {
 
 /// Height of title and legend.
 inline constexpr int kPanelCaption = 34;
-/// Draws the panel with its caption into a square of `side` pixels below it; small grids are enlarged by a whole
-/// factor.
+/// Pixels that so many cells take when the grid's longer edge takes `side`.
+int drawnLength(const AtlasGrid& grid, int cells, int side);
+/// Draws the panel's caption, and below it the grid, its longer edge `side` pixels long.
 void drawPanel(const SheetPanel& panel, int x, int y, int side, Canvas& canvas);
 
 }  // namespace lucarne
