@@ -3,6 +3,7 @@
 #include "app/bake_identity.h"
 #include "app/ledger_json.h"
 #include "app/trace_variant.h"
+#include "app/widened_highlights.h"
 #include "base/units.h"
 #include "dlm/resolve.h"
 
@@ -104,6 +105,7 @@ nlohmann::json makeReport(const ReportInput& in) {
     report["cut_flux"] = ldrScales(in.baked->maps, in.options.format.kMax).cutFlux;
   if (in.options.kernel.shape == KernelShape::adaptive) report["kernel_bias"] = in.baked->kernelBias.relative();
   report["estimated_relative_error"] = estimatedRelativeError(in.baked->maps, in.plan.layout);
+  report["widened_highlights"] = widenedHighlightsJson(in.scene, in.baked->maps);
   return report;
 }
 

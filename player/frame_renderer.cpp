@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "player/lobe.h"
+
 namespace lucarne {
 namespace {
 
@@ -17,9 +19,9 @@ void set(float (&to)[4], Vec3d v, double w = 0) {
   to[3] = static_cast<float>(w);
 }
 
-ProgramConstants constantsOf(const GpuMaps& maps, float outputScale) {
-  return {maps.cellSharpness,  maps.mapUnit,        outputScale,
-          maps.layersPerStrip, maps.cellTableNodes, maps.cellTableLayers};
+ProgramConstants constantsOf(const GpuMaps& maps, float outputScale, LobeKind lobe, int directionCount) {
+  return {maps.cellSharpness,  maps.mapUnit,         outputScale, maps.layersPerStrip,
+          maps.cellTableNodes, maps.cellTableLayers, lobe,        capCosine(directionCount)};
 }
 
 /// State that no pass changes back.
@@ -35,10 +37,11 @@ void setFixedState(const FrameTarget& target) {
 
 }  // namespace
 
-FrameRenderer::FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale)
+FrameRenderer::FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale,
+                             LobeKind lobe)
     : maps_(uploadMaps(maps, format)),
       scene_(scene, maps),
-      programs_(constantsOf(maps_, outputScale)),
+      programs_(constantsOf(maps_, outputScale, lobe, maps.directionCount)),
       camera_(makeBuffer(std::as_bytes(std::span<const CameraBlock, 1>(std::array<CameraBlock, 1>{})),
                          GL_DYNAMIC_STORAGE_BIT)),
       singlepass_(makeSinglepass(scene_.list)),

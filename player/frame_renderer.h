@@ -17,7 +17,8 @@ struct FrameView {
 class FrameRenderer {
  public:
   /// `scene` is needed only here. `outputScale`: target units per cd/m².
-  FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale = 1.f);
+  FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale = 1.f,
+                LobeKind lobe = LobeKind::cell);
 
   /// Fills target.color with outputScale · cd/m²; black where nothing is.
   void draw(const FrameView& view, RendererKind renderer, const FrameTarget& target);

@@ -9,23 +9,52 @@
 
 namespace lucarne {
 
-float cellSharpness(int directionCount) { return 1.2f * static_cast<float>(directionCount); }
+float lobeWeight(float sharpness, float cosine) { return std::exp(std::max(sharpness * (cosine - 1.f), -60.f)); }
 
-float lobeSharpness(float alpha, int directionCount) {
-  const float lobe = phongFromAlpha(alpha) + 1.f, cell = cellSharpness(directionCount);
-  return lobe * cell / (lobe + cell);
+float capCosine(int directionCount) { return 1.f - 2.f / static_cast<float>(directionCount); }
+
+float phongDensity(float exponent, float cosine) {
+  return (exponent + 1.f) * 0.5f * std::numbers::inv_pi_v<float> * std::pow(std::max(cosine, 0.f), exponent);
 }
 
-float lobeWeight(float sharpness, float cosine) { return std::exp(std::max(sharpness * (cosine - 1.f), -60.f)); }
+float phongDensityOverCap(float exponent, float cosine, float capCosine) {
+  const float sine = std::sqrt(std::max(0.f, 1.f - cosine * cosine));
+  const float capSine = std::sqrt(std::max(0.f, 1.f - capCosine * capCosine));
+  const float c1 = cosine >= capCosine ? 1.f : cosine * capCosine + sine * capSine;
+  const float c0 = cosine <= -capCosine ? -1.f : cosine * capCosine - sine * capSine;
+  const auto integral = [&](float c) { return std::pow(std::max(c, 0.f), exponent + 1.f); };
+  return 0.5f * std::numbers::inv_pi_v<float> * (integral(c1) - integral(c0)) / (c1 - c0);
+}
 
 Vec3f mirrorDirection(Vec3f normal, Vec3f toEye) {
   const Vec3f r = normal * (2.f * dot(normal, toEye)) - toEye;
   return normalize(r - normal * std::min(dot(normal, r), 0.f));
 }
 
+namespace {
+
+/// Light from a direction this close to the horizon is taken as if it came a little from above.
+constexpr float kLeastFacing = 0.02f;
+
+Rgb unnormalised(const LobeView& view, float alpha, std::span<const LobeCell> cells, std::span<const Rgb> values) {
+  const float exponent = phongFromAlpha(alpha), cap = capCosine(view.directionCount);
+  const Vec3f r = mirrorDirection(view.normal, view.toEye);
+  Rgb light{};
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const float cosine = dot(r, cells[k].direction);
+    const float density =
+        view.lobe == LobeKind::barsi ? phongDensityOverCap(exponent, cosine, cap) : phongDensity(exponent, cosine);
+    light += values[k] * (density / std::max(dot(view.normal, cells[k].direction), kLeastFacing));
+  }
+  return light;
+}
+
+}  // namespace
+
 Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell> cells, std::span<const Rgb> values,
                      Rgb E) {
   LUCARNE_CHECK_EQ(cells.size(), values.size());
+  if (view.lobe != LobeKind::cell && !cells.empty()) return unnormalised(view, alpha, cells, values);
   const float sharpness = lobeSharpness(alpha, view.directionCount);
   const Vec3f r = mirrorDirection(view.normal, view.toEye);
   Rgb light{};

@@ -13,27 +13,30 @@
 // above the horizon, is what constant radiance 1 would have stored. So constant light L gives exactly L·ρ, whatever the
 // weights are. Empty maps are members too: they count in the denominator.
 //
-// w_ψ is the reflection lobe averaged over the cell. Both are taken as Gaussians on the sphere, exp(λ(cos − 1)): the
-// lobe around the mirror direction r, the cell around its mean direction d_ψ. Averaging is a convolution, which adds
-// the variances 1/λ:
+// w_ψ is the reflection lobe averaged over the cell, both taken as Gaussians on the sphere: the lobe around the mirror
+// direction r, the cell around its mean direction d_ψ (dlm/lobe_width.h tells λ):
 //
-//   w_ψ = exp(λ(r·d_ψ − 1)),   1/λ = 1/λ_lobe + 1/λ_cell
-//
-// λ_lobe: a reflection-Phong lobe cosⁿ and exp(λ(cos − 1)) enclose the same for λ = n + 1, as 2π/(n + 1) and 2π/λ; n
-// comes from α (phong.h), so λ_lobe = (1/α² + 1)/2.
-// λ_cell: for a cap of solid angle Ω_c the mean of 1 − cos is Ω_c/4π, for the Gaussian 1/λ: λ_cell = 4π/Ω_c = |Ω|.
-// Against the true average of cosⁿ over Voronoi cells (|Ω| 14 … 256, n 1 … 1000, mirror direction up to 75° off the
-// normal; half the summed difference of the normalised C·w) λ_lobe = n + 1 beats n and n + 2 for n = 1 and equals them
-// elsewhere, and 1.2·|Ω| is the best λ_cell for small sets and as good for large ones: 2 % to 5 % in most cases, at
-// worst 11 % (n = 1000, |Ω| ≤ 32). One λ_cell serves all cells, also those that the horizon cuts: a sliver must not
-// have a say of its own.
+//   w_ψ = exp(λ(r·d_ψ − 1))
 //
 // A lobe narrower than a cell is so widened to the cell, with its energy kept by the division.
+//
+// Two other ways are there to be compared with it. Both take the lobe for a density over directions,
+// D = (n + 1)/2π·cosⁿ, and the light of a cell for a lamp of perpendicular irradiance B_ψ/(n·d_ψ), and do not
+// normalise:
+//
+//   Σ B_ψ D_ψ / (n·d_ψ)
+//
+// `sample` takes D at d_ψ alone. `barsi` averages it over the cell by a closed form, as Barsi, Szirmay-Kalos and Szécsi
+// (2005) do for the Voronoi cells of an environment map: the cell is a cap of its solid angle 4π/|Ω| around d_ψ, in
+// which cosines with r run from c₀ to c₁, and cosⁿ averaged evenly over them is (c₁ⁿ⁺¹ − c₀ⁿ⁺¹)/((n + 1)(c₁ − c₀)):
+// exact for r = d_ψ and for small cells.
 #pragma once
 
 #include <span>
 
 #include "base/vec.h"
+#include "dlm/lobe_width.h"
+#include "player/render_options.h"
 #include "tracer/optics/bsdf.h"
 
 namespace lucarne {
@@ -44,12 +47,13 @@ struct LobeCell {
   float cosIntegral = 0;  // C, sr
 };
 
-/// λ_cell of |Ω| directions.
-float cellSharpness(int directionCount);
-/// λ for GGX α and |Ω|.
-float lobeSharpness(float alpha, int directionCount);
 /// exp(λ(cos − 1)), bounded below so that weights that are all far from the mirror direction become equal, not zero.
 float lobeWeight(float sharpness, float cosine);
+/// Cosine of the radius of a cap that is one |Ω|-th of the sphere.
+float capCosine(int directionCount);
+/// D of an exponent at, or averaged over a cap around, a direction whose cosine with r is `cosine`; per sr.
+float phongDensity(float exponent, float cosine);
+float phongDensityOverCap(float exponent, float cosine, float capCosine);
 /// Mirror of `toEye` about the shading normal; both unit. Kept above the horizon.
 Vec3f mirrorDirection(Vec3f normal, Vec3f toEye);
 
@@ -57,9 +61,11 @@ Vec3f mirrorDirection(Vec3f normal, Vec3f toEye);
 struct LobeView {
   Vec3f normal, toEye;
   int directionCount = 1;  // |Ω|
+  LobeKind lobe = LobeKind::cell;
 };
 
-/// (Σ B w) / (Σ C w), cd/m²; E/π where `cells` is empty. `values`: B of the cells, lx, in the same order.
+/// (Σ B w) / (Σ C w), or Σ B D/(n·d), cd/m²; E/π where `cells` is empty. `values`: B of the cells, lx, in the same
+/// order.
 Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell> cells, std::span<const Rgb> values,
                      Rgb E);
 /// Lo without emission, cd/m².

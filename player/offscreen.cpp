@@ -29,7 +29,7 @@ ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& ca
   const Clock::time_point start = Clock::now();
   const HeadlessGl gl;
   checkSize(options);
-  FrameRenderer renderer(scene, maps, options.format);
+  FrameRenderer renderer(scene, maps, options.format, 1.f, options.lobe);
   const FrameTarget target(options.width, options.height, true);
   const double loaded = secondsSince(start);
   renderer.draw({camera}, options.renderer, target);

@@ -27,6 +27,7 @@ Names fragmentFiles(PassKind pass) {
 void setConstants(GLuint program, const ProgramConstants& c) {
   const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
   glProgramUniform1f(program, at("cellSharpness"), c.cellSharpness);
+  glProgramUniform1f(program, at("capCosine"), c.capCosine);
   glProgramUniform1f(program, at("mapUnit"), c.mapUnit);
   glProgramUniform1f(program, at("outputScale"), c.outputScale);
   glProgramUniform1i(program, at("layersPerStrip"), c.layersPerStrip);
@@ -48,6 +49,8 @@ const ShadingProgram& Programs::shading(PassKind pass, bool curved, bool texture
   std::vector<std::string> defines;
   if (curved) defines.emplace_back("CURVED");
   if (textured) defines.emplace_back("TEXTURED");
+  if (constants_.lobe == LobeKind::barsi) defines.emplace_back("LOBE_BARSI");
+  if (constants_.lobe == LobeKind::sample) defines.emplace_back("LOBE_SAMPLE");
   const Names files = fragmentFiles(pass);
   ShadingProgram made{build(std::string(files.back()), {"camera.glsl", "surface_vertex.glsl"}, files, defines)};
   setConstants(made.program.get(), constants_);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "player/gl_objects.h"
+#include "player/render_options.h"
 
 namespace lucarne {
 
@@ -24,6 +25,8 @@ struct ShadingProgram {
 struct ProgramConstants {
   float cellSharpness = 1, mapUnit = 1, outputScale = 1;
   int layersPerStrip = 1, cellTableNodes = 1, cellTableLayers = 1;
+  LobeKind lobe = LobeKind::cell;
+  float capCosine = 1;  // of barsi
 };
 
 class Programs {

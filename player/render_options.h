@@ -18,10 +18,18 @@ enum class LightMapFormat {
   float32,  // 16 bytes: for tests of exactness
 };
 
+/// How the reflection lobe is weighed against the light of a cell; lobe.h has the formulas.
+enum class LobeKind {
+  cell,    // averaged over the cell and normalised over the set
+  barsi,   // averaged over a cap by a closed form, not normalised
+  sample,  // in the middle of the cell, not normalised
+};
+
 struct RenderOptions {
   int width = 1280, height = 720;
   RendererKind renderer = RendererKind::singlepass;
   LightMapFormat format = LightMapFormat::half;
+  LobeKind lobe = LobeKind::cell;
 };
 
 /// State changes of one frame.

@@ -19,6 +19,12 @@ void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size
       cmd, "--map-format", options.format,
       {{"half", LightMapFormat::half}, {"rgb9e5", LightMapFormat::rgb9e5}, {"float", LightMapFormat::float32}}, "half",
       "light maps on the GPU: half, rgb9e5 (half the memory) or float (exact)");
+  if (!withPathTracer) return;
+  addChoice<LobeKind>(cmd, "--lobe", options.lobe,
+                      {{"cell", LobeKind::cell}, {"barsi", LobeKind::barsi}, {"sample", LobeKind::sample}}, "cell",
+                      "highlights: cell: the lobe averaged over each direction's cell and normalised; to compare with "
+                      "it barsi: averaged by a "
+                      "closed form, and sample: in the middle of the cell");
 }
 
 void applySize(const std::string& size, RenderOptions& options) {

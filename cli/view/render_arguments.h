@@ -10,7 +10,7 @@
 namespace lucarne {
 
 /// Adds --size, --renderer and --map-format. `size` is parsed by applySize() when the command runs. `pathtraced` is among
-/// the renderers only where asked for.
+/// the renderers, and there is --lobe, only where asked for.
 void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size, bool withPathTracer);
 
 /// "1280x720" into width and height; UsageError otherwise.

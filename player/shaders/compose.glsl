@@ -43,6 +43,10 @@ vec3 outgoingRadiance(Side side, Material m, vec3 n, vec4 lobe) {
 
   vec3 E = irradianceAt(side);
   vec3 diffuse = (base * ((1.0 - metallic) * max(0.0, 1.0 - max(rho.r, max(rho.g, rho.b)))) + more) / kPi;
+#if defined(LOBE_BARSI) || defined(LOBE_SAMPLE)
+  vec3 mirrored = (side.flags & kDirections) != 0u ? lobe.rgb * mapUnit : E / kPi;
+#else
   vec3 mirrored = (side.flags & kDirections) != 0u && lobe.a > 0.0 ? lobe.rgb * (mapUnit / lobe.a) : E / kPi;
+#endif
   return Le + diffuse * E + once * mirrored;
 }

@@ -12,7 +12,7 @@ layout(location = 0) out vec4 sums;
 vec4 lobeTerm(Side side, uint rank, bool isStored, float alpha) {
   vec3 n = shadingNormal();
   vec4 cell = cellAt(side.firstCell + rank, octahedral(n));
-  float w = lobeWeight(lobeSharpness(alpha), dot(mirrorDirection(n), cell.xyz));
+  float w = lobeWeight(lobeWidth(alpha), mirrorDirection(n), cell.xyz, n);
   vec3 value = vec3(0);
   if (isStored) {
     uint strip = rank / uint(layersPerStrip);

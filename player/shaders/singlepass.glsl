@@ -3,7 +3,7 @@ layout(location = 0) out vec4 color;
 
 // Stored maps come first in a side's list, in the order of their layers; then the empty ones, which only count as members.
 vec4 lobeSums(Side side, Material m, vec3 n) {
-  float sharpness = lobeSharpness(materialAlpha(m));
+  float width = lobeWidth(materialAlpha(m));
   vec3 r = mirrorDirection(n);
   vec2 node = octahedral(n);
   vec2 pageSize = vec2(textureSize(maps, 0).xy);
@@ -15,12 +15,12 @@ vec4 lobeSums(Side side, Material m, vec3 n) {
     vec2 page = texel / pageSize;
     for (uint k = 0u; k < count; ++k) {
       vec4 cell = cellAt(side.firstCell + start + k, node);
-      sum += vec4(mapValue(page, side.firstLayer + k), cell.w) * lobeWeight(sharpness, dot(r, cell.xyz));
+      sum += vec4(mapValue(page, side.firstLayer + k), cell.w) * lobeWeight(width, r, cell.xyz, n);
     }
   }
   for (uint k = stored; k < side.members; ++k) {
     vec4 cell = cellAt(side.firstCell + k, node);
-    sum.a += cell.w * lobeWeight(sharpness, dot(r, cell.xyz));
+    sum.a += cell.w * lobeWeight(width, r, cell.xyz, n);
   }
   return sum;
 }

@@ -38,6 +38,7 @@ layout(binding = 8) uniform usampler2D ownerImage;
 
 uniform int materialIndex;
 uniform float cellSharpness;  // λ of a cell of Ω
+uniform float capCosine;      // of the radius of a cap as large as a cell
 
 const float kPi = 3.14159265358979;
 const float kMinAlpha = 1e-3;
@@ -71,11 +72,6 @@ float materialAlpha(Material m) {
   return max(roughness * roughness, kMinAlpha);
 }
 
-float lobeSharpness(float alpha) {
-  float lobe = 0.5 * (1.0 / (alpha * alpha) + 1.0);
-  return lobe * cellSharpness / (lobe + cellSharpness);
-}
-
 // The way the mirror of the shading normal sends the eye's ray; kept above the horizon.
 vec3 mirrorDirection(vec3 n) {
   vec3 toEye = -normalize(v.fromEye);
@@ -83,4 +79,28 @@ vec3 mirrorDirection(vec3 n) {
   return normalize(r - n * min(dot(n, r), 0.0));
 }
 
-float lobeWeight(float sharpness, float cosine) { return exp(max(sharpness * (cosine - 1.0), -60.0)); }
+// What a cell's light counts in the highlight: `r` the mirror direction, `d` the mean direction of the cell, `n` the shading
+// normal. lobeWidth() is what of it is the same for all cells.
+#if defined(LOBE_BARSI) || defined(LOBE_SAMPLE)
+float lobeWidth(float alpha) { return max(0.5 * (1.0 / (alpha * alpha) - 1.0), 0.0); }  // the Phong exponent
+
+float lobeWeight(float exponent, vec3 r, vec3 d, vec3 n) {
+  float c = dot(r, d);
+#ifdef LOBE_BARSI
+  float across = sqrt(max((1.0 - c * c) * (1.0 - capCosine * capCosine), 0.0));
+  float c1 = c >= capCosine ? 1.0 : c * capCosine + across;
+  float c0 = c <= -capCosine ? -1.0 : c * capCosine - across;
+  float density = (pow(max(c1, 0.0), exponent + 1.0) - pow(max(c0, 0.0), exponent + 1.0)) / (c1 - c0);
+#else
+  float density = (exponent + 1.0) * pow(max(c, 0.0), exponent);
+#endif
+  return density / (2.0 * kPi * max(dot(n, d), 0.02));
+}
+#else
+float lobeWidth(float alpha) {
+  float lobe = 0.5 * (1.0 / (alpha * alpha) + 1.0);
+  return lobe * cellSharpness / (lobe + cellSharpness);
+}
+
+float lobeWeight(float sharpness, vec3 r, vec3 d, vec3 n) { return exp(max(sharpness * (dot(r, d) - 1.0), -60.0)); }
+#endif

@@ -116,6 +116,50 @@ TEST(Lobe, NarrowLobesAreWidenedToTheCellAndStayFinite) {
   EXPECT_NEAR(Lo.x, 20.f, 1e-3f);
 }
 
+TEST(Lobe, DensitiesOfTheOtherLobesAreDensities) {
+  for (const float exponent : {0.5f, 1.f, 10.f, 100.f}) {
+    for (const int count : {2, 14, 256}) {
+      const float cap = capCosine(count);
+      double sample = 0;
+      constexpr int kSteps = 100000;
+      for (int i = 0; i < kSteps; ++i) {
+        const double c = 1 - 2 * (i + 0.5) / kSteps;  // equal areas of the sphere
+        sample += static_cast<double>(phongDensity(exponent, static_cast<float>(c)));
+        const float averaged = phongDensityOverCap(exponent, static_cast<float>(c), cap);
+        ASSERT_TRUE(averaged >= 0 && averaged <= 1.001f * phongDensity(exponent, 1)) << c;
+      }
+      EXPECT_NEAR(sample * 4 * std::numbers::pi / kSteps, 1, 1e-3);
+      // Around the mirror direction itself the average over the cap is exact.
+      const double inside = 1 - std::pow(static_cast<double>(std::max(cap, 0.f)), static_cast<double>(exponent) + 1);
+      EXPECT_NEAR(phongDensityOverCap(exponent, 1, cap) * 4 * std::numbers::pi / count, inside, 1e-4);
+    }
+    // Small cells: that of the direction alone.
+    for (const float c : {-0.5f, 0.3f, 0.9f, 0.99f}) {
+      EXPECT_NEAR(phongDensityOverCap(exponent, c, capCosine(60000)), phongDensity(exponent, c),
+                  0.02f * phongDensity(exponent, 1));
+    }
+  }
+}
+
+// What normalising is for: of constant light the others lose or make some, the more the narrower the lobe.
+TEST(Lobe, OnlyTheNormalisedOneKeepsConstantLight) {
+  const DirectionSet set(32);
+  const auto cells = membersOf(set, {0, 0, 1});
+  const auto values = constantLight(cells, Rgb(1.f));
+  double worst[3] = {};
+  for (const LobeKind lobe : {LobeKind::cell, LobeKind::barsi, LobeKind::sample}) {
+    for (int i = 0; i < 40; ++i) {
+      const LobeView view{{0, 0, 1}, directionAt(0.02 * i, 2.4 * i), 32, lobe};
+      const float shown = mirroredRadiance(view, alphaFromPhong(50), cells, values, Rgb(1.f)).x;
+      double& w = worst[static_cast<int>(lobe)];
+      w = std::max(w, std::abs(static_cast<double>(shown) - 1));
+    }
+  }
+  EXPECT_LT(worst[0], 1e-5);
+  EXPECT_GT(worst[1], 0.02);
+  EXPECT_GT(worst[2], 2 * worst[1]);
+}
+
 TEST(Lobe, MirrorDirectionIsUnitAndNeverBelowTheHorizon) {
   for (int i = 0; i < 200; ++i) {
     const Vec3f toEye = directionAt(0.0157 * i, 1.7 * i);  // also from behind

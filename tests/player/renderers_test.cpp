@@ -125,12 +125,39 @@ Material coat(float exponent) {
   return m;
 }
 
+// The shaders' lobes against those of lobe.h, in both renderers, at the pixel that looks at the middle of the plate.
+TEST_F(Renderers, EveryLobeIsThatOfTheReference) {
+  constexpr int kDirections = 32;
+  const auto light = [](Vec3d, Vec3d d) { return Rgb{static_cast<float>(1 + d.x), static_cast<float>(2 + d.y), 1.f}; };
+  const Vec3d eye{0.9, 0.4, 1.2}, target{0.01, 0.01, 0};
+  for (const float exponent : {3.f, 40.f}) {
+    const BakedScene baked = plate(kDirections, coat(exponent), light, eye);
+    const DirectionSet set(kDirections);
+    std::vector<LobeCell> cells;
+    std::vector<Rgb> values;
+    for (const SideDirection& d : baked.maps.sides.at(0).directions) {
+      cells.push_back(lobeCell(set, d.psi, {0, 0, 1}));
+      values.push_back(d.stored() ? baked.maps.directional[d.first] : Rgb{});
+    }
+    const Bsdf bsdf = makeBsdf(baked.scene.materials[0], factorsOf(baked.scene.materials[0]));
+    for (const LobeKind lobe : {LobeKind::cell, LobeKind::barsi, LobeKind::sample}) {
+      const LobeView view{{0, 0, 1}, Vec3f(normalize(eye - target)), kDirections, lobe};
+      const Rgb expected = reflectedRadiance(view, bsdf, cells, values, baked.maps.irradiance.at(0));
+      for (const RendererKind kind : {RendererKind::singlepass, RendererKind::multipass}) {
+        const RenderOptions options{33, 33, kind, LightMapFormat::float32, lobe};
+        const Rgb seen = centre(renderImage(baked.scene, baked.maps, baked.scene.cameras.at(0), options));
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(seen[c] / expected[c], 1, 0.01) << exponent << " " << static_cast<int>(lobe);
+      }
+    }
+  }
+}
+
 /// Largest relative difference from L·ρ(cosθ) over all pixels that show something; θ from the geometry of each pixel.
 template <class CosineAt>
 double worstHighlight(const BakedScene& baked, float L, const CosineAt& cosineAt, int size) {
   const ImageRgb image = render(baked, RendererKind::singlepass, LightMapFormat::float32, size, size);
-  const Bsdf bsdf =
-      makeBsdf(baked.scene.materials[0], factorsOf(baked.scene.materials[0]));
+  const Bsdf bsdf = makeBsdf(baked.scene.materials[0], factorsOf(baked.scene.materials[0]));
   double worst = 0;
   int shown = 0;
   for (int y = 0; y < size; ++y) {
