@@ -1,6 +1,8 @@
 // Bakes of small scenes in memory, and questions to them in world space.
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 
 #include "app/bake_scene.h"
@@ -59,7 +61,9 @@ class ProbedBake {
 
  private:
   static Dlm roundTrip(const BakedScene& b, const std::string& name) {
-    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / (name + ".dlm");
+    // Tests of one name run side by side, with other parameters.
+    const std::filesystem::path folder =
+        std::filesystem::path(::testing::TempDir()) / (name + "-" + std::to_string(getpid()) + ".dlm");
     DlmFormat format;
     format.directional = MapFormat::float32;
     writeDlm(folder, b.scene, b.baked.uv, b.baked.maps, nlohmann::json::object(), format);

@@ -64,8 +64,9 @@ TEST_P(Scale, APointLightFallsOffWithTheSquareOfDistance) {
   const double z =
       (static_cast<double>(b.baked.maps.irradiance[0].y) / expected - 1) * std::sqrt(p * kPhotons / (1 - p));
   EXPECT_LT(std::abs(z), test::zThreshold(5));
-  // A count of n out of N has the relative standard error √(1/n − 1/N).
-  EXPECT_NEAR(static_cast<double>(b.baked.maps.relativeError[0]) / std::sqrt((1 - p) / (p * kPhotons)), 1, 0.02);
+  // A count of n out of N has the relative standard error √(1/n − 1/N), which the one texel's own difference of halves
+  // corrects by a per cent or two.
+  EXPECT_NEAR(static_cast<double>(b.baked.maps.relativeError[0]) / std::sqrt((1 - p) / (p * kPhotons)), 1, 0.03);
 }
 INSTANTIATE_TEST_SUITE_P(Metres, Scale, testing::Values(1e-6, 1e-3, 1.0, 1e3, 1e6));
 
