@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Pictures of glossy reflections from light maps of more and more directions, against the path-traced truth, as Markdown.
+
+  scripts/measure-glossy.py [--lucarne PROGRAM] [--out FOLDER] [--exponents 1,3,10,30,100] [--directions 14,32,64,128,256,512,1024]
+                            [--lobes cell,barsi,sample] [--photons 20M] [--samples 256] [--size 320x180]
+
+The scene is scenes/two_lamps.glb with its floor's Phong exponent changed. For each exponent the truth is rendered twice, with
+two seeds: what they differ by is the floor below which no picture can be told from the truth. `FLIP` is the mean HDR-FLIP,
+`error` the sum of absolute differences over the sum of the truth, `on disk` the size of the .dlm, `frame` the time of one
+frame of that size in software OpenGL. What was baked or rendered before is kept and not made again.
+"""
+import argparse
+import json
+import os
+import re
+import struct
+import subprocess
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+FLOOR = "glossy_floor"
+
+
+def with_exponent(source, target, exponent):
+    """Copies a .glb; the floor gets the roughness whose lobe is about a Phong lobe of that exponent."""
+    data = open(source, "rb").read()
+    length = struct.unpack_from("<I", data, 12)[0]
+    document, rest = json.loads(data[20:20 + length]), data[20 + length:]
+    floor = next(m for m in document["materials"] if m["name"] == FLOOR)
+    floor["pbrMetallicRoughness"]["roughnessFactor"] = (1 / (2 * exponent + 1)) ** 0.25
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    with open(target, "wb") as out:
+        out.write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest)
+
+
+def folder_size(folder):
+    return sum(os.path.getsize(os.path.join(folder, f)) for f in os.listdir(folder))
+
+
+class Study:
+    def __init__(self, options):
+        self.o = options
+        os.makedirs(options.out, exist_ok=True)
+
+    def path(self, name):
+        return os.path.join(self.o.out, name)
+
+    def run(self, *arguments):
+        return subprocess.run([self.o.lucarne, *arguments], check=True, capture_output=True, text=True)
+
+    def truth(self, exponent):
+        """The scene and its truth, and how much two truths differ."""
+        scene = self.path(f"n{exponent}.glb")
+        if not os.path.exists(scene):
+            with_exponent(os.path.join(HERE, "../scenes/two_lamps.glb"), scene, exponent)
+        pictures = [self.path(f"n{exponent}-truth{seed}.exr") for seed in (1, 2)]
+        for seed, picture in enumerate(pictures, 1):
+            if not os.path.exists(picture):
+                self.run("render", scene, "-o", picture, "--renderer", "pathtraced", "--samples", str(self.o.samples), "--size",
+                         self.o.size, "--seed", str(seed), "--quiet")
+        return scene, pictures[0], self.compare(*pictures)
+
+    def compare(self, truth, picture):
+        return json.loads(self.run("compare", truth, picture, "--json").stdout)
+
+    def bake(self, scene, exponent, directions):
+        base = self.path(f"n{exponent}-{directions}")
+        if not os.path.exists(base + ".dlm"):
+            self.run("bake", scene, "-o", base + ".dlm", "--directions", str(directions), "--photons", self.o.photons, "--report",
+                     base + ".json", "--quiet")
+        report = json.load(open(base + ".json"))
+        shown = {w["material"]: w["shown_exponent"] for w in report["widened_highlights"]}.get(FLOOR)
+        return base, "" if shown is None else f"{shown:.0f}"
+
+    def picture(self, base, lobe, truth):
+        """FLIP and relative error of one picture, and the time of its frame, ms."""
+        picture = f"{base}-{lobe}.exr"
+        log = self.run("render", base + ".dlm", "-o", picture, "--size", self.o.size, "--lobe", lobe).stderr
+        difference = self.compare(truth, picture)
+        return difference["flip"]["mean"], difference["relative_error"], float(re.search(r"frame ([0-9.]+) ms", log).group(1))
+
+
+def table(study, exponent, options):
+    scene, truth, floor = study.truth(exponent)
+    print(f"\n### Exponent {exponent}\n\nTwo truths: FLIP {floor['flip']['mean']:.4f}, error {100 * floor['relative_error']:.1f} %.\n")
+    lobes = options.lobes.split(",")
+    print("| directions | shown exponent | on disk, MB | " + " | ".join(f"{l}: FLIP | error | frame, ms" for l in lobes) + " |")
+    print("|---" * (3 + 3 * len(lobes)) + "|")
+    for directions in options.directions.split(","):
+        base, shown = study.bake(scene, exponent, directions)
+        row = [directions, shown, f"{folder_size(base + '.dlm') / 1e6:.1f}"]
+        for lobe in lobes:
+            flip, error, frame = study.picture(base, lobe, truth)
+            row += [f"{flip:.4f}", f"{100 * error:.1f} %", f"{frame:.0f}"]
+        print("| " + " | ".join(row) + " |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--lucarne", default=os.path.join(HERE, "../build/release/cli/lucarne"))
+    parser.add_argument("--out", default=os.path.join(HERE, "../out/glossy"))
+    parser.add_argument("--exponents", default="1,3,10,30,100")
+    parser.add_argument("--directions", default="14,32,64,128,256,512,1024")
+    parser.add_argument("--lobes", default="cell,barsi,sample")
+    parser.add_argument("--photons", default="20M")
+    parser.add_argument("--samples", type=int, default=256)
+    parser.add_argument("--size", default="320x180")
+    options = parser.parse_args()
+    study = Study(options)
+    for exponent in options.exponents.split(","):
+        table(study, int(exponent), options)
+
+
+if __name__ == "__main__":
+    main()
