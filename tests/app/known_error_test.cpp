@@ -71,6 +71,8 @@ struct KnownErrorCase {
   std::uint64_t directSamples = 0;
 };
 
+void PrintTo(const KnownErrorCase& c, std::ostream* out) { *out << c.name; }
+
 class KnownError : public ::testing::TestWithParam<KnownErrorCase> {};
 
 TEST_P(KnownError, IsTheSpreadOfManyBakes) {
