@@ -55,6 +55,22 @@ class Kill : public test::ProgramTest {
     return most;
   }
 
+  bool hasState() const {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder_ / "room.checkpoint", none))
+      if (entry.path().extension() == ".part") return true;
+    return false;
+  }
+
+  /// Of a bake, which is then killed.
+  double millisecondsToFirstState() {
+    const auto start = std::chrono::steady_clock::now();
+    Background bake(folder_, bakeOf("1G"));
+    EXPECT_TRUE(waitFor(bake, [&] { return hasState(); }));
+    bake.kill();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+
   void expectUndisturbed(const std::string& photons) {
     mustRun(std::string("bake") + test::kQuickScene + "-o whole.dlm --density 10 --threads 2 --quiet --photons " +
             photons);
@@ -67,9 +83,10 @@ class Kill : public test::ProgramTest {
 
 TEST_F(Kill, ThirtyTimesAtRandomMomentsAndInTheMiddleOfWriting) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> soon(0, 250), inWriting(0, 6);
+  // Moments before and after the first state is saved, however fast program and machine are.
+  std::uniform_real_distribution<double> soon(0, std::max(250.0, 2 * millisecondsToFirstState())), inWriting(0, 6);
   int killed = 0, whileWriting = 0;
-  std::uint64_t before = 0;
+  std::uint64_t before = savedPhotons();
   for (int round = 0; killed < 30 && round < 200; ++round) {
     Background bake(folder_, bakeOf("1G"));
     if (round % 2 == 0) {
