@@ -3,32 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dlm/plane_polygon.h"
 #include "tracer/optics/warp.h"
 
 namespace lucarne {
 namespace {
 
-struct Polygon {
-  std::array<Vec2d, 8> corner;
-  std::size_t count = 0;
-  void add(Vec2d p) {
-    if (count < corner.size()) corner[count++] = p;
-  }
-};
-
-double cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
+using Polygon = PlanePolygon;
 
 /// The part where sign·(p[axis] − at) ≥ 0.
 Polygon clip(const Polygon& in, bool yAxis, double at, double sign) {
-  Polygon out;
-  const auto height = [&](Vec2d p) { return sign * ((yAxis ? p.y : p.x) - at); };
-  for (std::size_t i = 0; i < in.count; ++i) {
-    const Vec2d a = in.corner[i], b = in.corner[(i + 1) % in.count];
-    const double ha = height(a), hb = height(b);
-    if (ha >= 0) out.add(a);
-    if ((ha >= 0) != (hb >= 0)) out.add(a + (b - a) * (ha / (ha - hb)));
-  }
-  return out;
+  return clipped(in, [&](Vec2d p) { return sign * ((yAxis ? p.y : p.x) - at); });
 }
 
 /// Texels that an interval touches, within [first, end).
