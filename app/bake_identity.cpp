@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 4> kShapes = {"pyramid", "box", "epanechnikov", "adaptive"};
+constexpr std::array<const char*, 5> kShapes = {"pyramid", "box", "epanechnikov", "adaptive", "linear"};
 constexpr std::array<const char*, 2> kChartModes = {"auto", "grow"};
 constexpr std::array<const char*, 2> kSamplers = {"random", "sobol"};
 constexpr std::array<const char*, 2> kDirectModes = {"photons", "gathered"};

@@ -29,9 +29,11 @@ inline std::map<std::string, KernelShape> kernelShapes() {
   return {{"pyramid", KernelShape::pyramid},
           {"box", KernelShape::box},
           {"epanechnikov", KernelShape::epanechnikov},
-          {"adaptive", KernelShape::adaptive}};
+          {"adaptive", KernelShape::adaptive},
+          {"linear", KernelShape::linear}};
 }
 inline constexpr const char* kKernelHelp =
-    "reconstruction kernel: pyramid, box, epanechnikov, or adaptive: at each texel the width of least expected error";
+    "reconstruction kernel: pyramid, box, epanechnikov; linear: fits a plane, sharper at edges; or adaptive: at each texel the "
+    "width of least expected error";
 
 }  // namespace lucarne

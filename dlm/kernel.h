@@ -8,7 +8,8 @@
 namespace lucarne {
 
 /// adaptive: at each texel one of several pyramids, from none (the texel's own light) to `width`; see kernel_levels.h.
-enum class KernelShape : std::uint8_t { pyramid, box, epanechnikov, adaptive };
+/// linear: the pyramid, but a plane instead of a mean is fitted under it; see side_resolver.h.
+enum class KernelShape : std::uint8_t { pyramid, box, epanechnikov, adaptive, linear };
 
 struct KernelOptions {
   KernelShape shape = KernelShape::pyramid;
@@ -21,6 +22,7 @@ constexpr double defaultKernelWidth(KernelShape shape) { return shape == KernelS
 /// Separable weights k(dx)·k(dy) for whole-texel offsets −radius … radius.
 struct Kernel {
   int radius = 0;
+  bool linear = false;          // weights lean where the surface lies to one side
   std::vector<double> weights;  // [offset + radius]
   double operator()(int offset) const { return weights[static_cast<std::size_t>(offset + radius)]; }
 };
@@ -31,7 +33,8 @@ inline double kernelProfile(KernelShape shape, double relativeDistance) {
     case KernelShape::box: return 1;
     case KernelShape::epanechnikov: return 1 - relativeDistance * relativeDistance;
     case KernelShape::pyramid:
-    case KernelShape::adaptive: break;
+    case KernelShape::adaptive:
+    case KernelShape::linear: break;
   }
   return 1 - relativeDistance;
 }
@@ -39,6 +42,7 @@ inline double kernelProfile(KernelShape shape, double relativeDistance) {
 /// Of adaptive kernels the widest.
 inline Kernel makeKernel(const KernelOptions& options) {
   Kernel kernel;
+  kernel.linear = options.shape == KernelShape::linear;
   while (kernelProfile(options.shape, (kernel.radius + 1) / options.width) > 0) ++kernel.radius;
   for (int d = -kernel.radius; d <= kernel.radius; ++d)
     kernel.weights.push_back(kernelProfile(options.shape, std::abs(d) / options.width));
