@@ -133,6 +133,7 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
   agree([&] {
     environment = makeEnvironment(std::move(sky), options);
     scene.emplace(packed.scene, RayCasterOptions{options.isa, true}, environment.get());
+    settleDirections(packed.scene, options);
     prepareEmission(*scene, options);
     plan.emplace(makePlan(packed.scene, options));
     checkMemory(*plan, options, mpi == nullptr ? 1 : mpi->localSize());

@@ -65,6 +65,7 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
   o.guideHash = s.at("guide").text();
   o.kernel.shape = choiceAt<KernelShape>(r.at("kernel"), kShapes);
   o.kernel.width = r.at("kernel_width").number();
+  if (r.has("drop_error")) o.dropError = r.at("drop_error").number();
   if (r.has("seams")) o.seams = choiceAt<SeamMode>(r.at("seams"), kSeamModes);
   o.photons = std::max<std::uint64_t>(1, header.planned.photons);
   if (traceSettings(o) != header.identity.settings) s.refuse("has settings that this program does not know");
@@ -99,6 +100,7 @@ json traceSettings(const BakeOptions& o) {
 json resolveSettings(const BakeOptions& o) {
   json settings = {{"kernel", kShapes[static_cast<std::size_t>(o.kernel.shape)]}, {"kernel_width", o.kernel.width}};
   if (o.seams != SeamMode::fit) settings["seams"] = seamsName(o);
+  if (o.dropError > 0) settings["drop_error"] = o.dropError;
   return settings;
 }
 
@@ -125,7 +127,7 @@ std::string bakeCommand(const PartHeader& header, const std::string& output, con
     if (differs) text += " " + option;
   };
   add(o.photons != standard.photons, "--photons " + formatExactCount(o.photons));
-  add(o.directions != standard.directions, "--directions " + std::to_string(o.directions));
+  add(true, "--directions " + std::to_string(o.directions));
   add(o.charts != standard.charts, "--charts grow");
   add(o.texelsPerMetre != standard.texelsPerMetre, "--density " + shortest(o.texelsPerMetre));
   add(o.texelBudget != standard.texelBudget, "--texels " + formatExactCount(o.texelBudget));
@@ -147,6 +149,7 @@ std::string bakeCommand(const PartHeader& header, const std::string& output, con
       std::string("--kernel ") + kShapes[static_cast<std::size_t>(o.kernel.shape)]);
   add(o.kernel.width != standard.kernel.width, "--kernel-width " + shortest(o.kernel.width));
   add(o.seams != standard.seams, "--seams " + seamsName(o));
+  add(o.dropError > 0, "--drop-error " + shortest(100 * o.dropError) + "%");
   return text + (rest.empty() ? "" : " " + rest);
 }
 

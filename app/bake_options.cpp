@@ -37,6 +37,7 @@ void checkSettings(const BakeOptions& o) {
   if (!(o.environmentScale >= 0 && o.environmentScale <= 1e12)) throw UsageError("--environment-scale must be 0 to 1e12");
   if (!std::isfinite(o.environmentTurn)) throw UsageError("--environment-turn must be a number of degrees");
   if (!(o.kernel.width >= 0.5 && o.kernel.width <= 16)) throw UsageError("--kernel-width must be 0.5 to 16 texels");
+  if (!(o.dropError >= 0 && o.dropError < 1)) throw UsageError("--drop-error must be 0 to below 100%");
 }
 
 void checkFormat(const DlmFormat& format) {

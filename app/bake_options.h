@@ -37,12 +37,14 @@ struct BakeOptions {
   std::optional<PartNumber> part;              // bake one of n parts,
   std::optional<IndexRange> photonRange;       // or these photons; never both
   int directions = 14;
+  bool chooseDirections = false;  // instead as many as the scene's surfaces can show (choose_directions.h)
   double texelsPerMetre = 16;
   std::uint64_t texelBudget = 1'000'000;
   ChartMode charts = ChartMode::automatic;
   bool keepAllDirections = false;
   KernelOptions kernel;
   SeamMode seams = SeamMode::fit;
+  double dropError = 0;  // maps of faint directions are left out under this bound (drop_maps.h)
   std::uint64_t seed = 0;
   SamplerKind sampler = SamplerKind::sobol;
   LightPart light = LightPart::all;

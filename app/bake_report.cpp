@@ -26,6 +26,13 @@ nlohmann::json leftOut(const Scene& scene, const BakePlan& plan, int directions)
   return list;
 }
 
+/// Maps of faint directions that the user gave up.
+std::string droppedText(const DroppedMaps& d, double bound) {
+  return std::to_string(d.maps) + " maps of faint directions, " +
+         formatPercent(static_cast<double>(d.texels) / static_cast<double>(d.storedTexels)) + " of their texels: no texel loses more than " +
+         formatPercent(d.lost) + " (--drop-error " + formatPercent(bound) + ")";
+}
+
 nlohmann::json settingsToJson(const BakeOptions& o, const BakePlan& plan) {
   nlohmann::json settings = traceSettings(o);
   settings.update(resolveSettings(o));
@@ -99,6 +106,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["threads"] = threadCount(in.options);
   report["ranks"] = in.options.ranks;
   if (in.baked == nullptr) return report;
+  if (in.baked->dropped.maps > 0) report["left_out"].push_back(droppedText(in.baked->dropped, in.options.dropError));
   report["seams"] = seamsToJson(in.baked->seams, in.options);
   report["map_bytes"] = storedMapBytes(in.baked->maps);
   if (in.options.format.directional == MapFormat::ldr8)

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "app/choose_directions.h"
 #include "base/log.h"
 #include "base/system.h"
 #include "base/units.h"
@@ -41,8 +42,19 @@ Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& o
                        options.kernel, &baked.kernelBias);
   const SeamSet seams = findSeams(scene, plan.charts, plan.layout, baked.maps, baked.contacts);
   baked.seams = fitSeams(seams, plan.layout, baked.maps, options.seams == SeamMode::fit);
+  baked.dropped = dropFaintMaps(baked.maps, options.dropError);
   baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);
   return baked;
+}
+
+void settleDirections(const Scene& scene, BakeOptions& options) {
+  if (!options.chooseDirections) return;
+  const DirectionChoice choice = chooseDirections(scene);
+  options.directions = choice.directions;
+  options.chooseDirections = false;
+  if (choice.glossy > 0)
+    logInfo(std::to_string(choice.directions) + " directions: " + formatPercent(choice.shown) +
+            " of what is glossy will look as sharp as it is (--directions)");
 }
 
 void prepareEmission(PhotonScene& scene, BakeOptions& options) {

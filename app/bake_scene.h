@@ -7,6 +7,7 @@
 #include "distributed/part_header.h"
 #include "distributed/photon_run.h"
 #include "dlm/atlas.h"
+#include "dlm/drop_maps.h"
 #include "dlm/light_maps.h"
 #include "dlm/resolve.h"
 #include "dlm/seam_fit.h"
@@ -23,6 +24,7 @@ struct Baked {
   LightMaps maps;
   SeamReport seams;
   KernelBias kernelBias;  // of adaptive kernels
+  DroppedMaps dropped;
   AtlasUv uv;           // into maps' irradiance atlas
   Hash128 contentHash;  // of the tallies
 };
@@ -36,6 +38,9 @@ Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOption
 /// of `options` decide. Fills in all but the seconds.
 Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, const PartHeader& header,
                   const Tallies& tallies);
+
+/// Where the options leave it to the scene: how many directions.
+void settleDirections(const Scene& scene, BakeOptions& options);
 
 /// Gives the scene its emission guides, where the options want them and a pilot finds them worth it, and the options
 /// the hashes of what photons depend on. Takes the threads of the options.

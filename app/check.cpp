@@ -43,13 +43,15 @@ nlohmann::json sectionsOf(const CheckInput& in) {
 
 }  // namespace
 
-nlohmann::json checkScene(const BakeOptions& options) {
-  checkSettings(options);
-  checkMachine(options);
+nlohmann::json checkScene(const BakeOptions& asked) {
+  checkSettings(asked);
+  checkMachine(asked);
+  BakeOptions options = asked;
   const auto start = std::chrono::steady_clock::now();
   const PackedScene packed = loadScene(options);
   const std::unique_ptr<Environment> sky = makeEnvironment(loadSky(options), options);
   PhotonScene photonScene(packed.scene, RayCasterOptions{options.isa, true}, sky.get());
+  settleDirections(packed.scene, options);
   BakeOptions guided = options;
   prepareEmission(photonScene, guided);
   const BakePlan plan = makePlan(packed.scene, options);

@@ -93,6 +93,7 @@ void chooseKernel(const MergeOptions& options, BakeOptions& baked, PartHeader& w
     baked.kernel.width = defaultKernelWidth(baked.kernel.shape);
   if (options.kernelWidth) baked.kernel.width = *options.kernelWidth;
   if (options.seams) baked.seams = *options.seams;
+  if (options.dropError) baked.dropError = *options.dropError;
   checkSettings(baked);
   whole.identity.resolve = resolveSettings(baked);
 }
@@ -103,6 +104,7 @@ std::set<std::string> chosenMembers(const MergeOptions& options) {
   if (options.kernel) chosen.insert("kernel");
   if (options.kernelWidth) chosen.insert("kernel_width");
   if (options.seams) chosen.insert("seams");
+  if (options.dropError) chosen.insert("drop_error");
   return chosen;
 }
 

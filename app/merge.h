@@ -17,6 +17,7 @@ struct MergeOptions {
   std::optional<KernelShape> kernel;            // none: as the parts were baked
   std::optional<double> kernelWidth;
   std::optional<SeamMode> seams;
+  std::optional<double> dropError;
   bool complete = false;  // missing photons are an error
   DlmFormat format;
   std::optional<std::filesystem::path> report;

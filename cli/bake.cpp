@@ -18,6 +18,7 @@ struct BakeTexts {
   LayoutTexts layout;
   std::string scene, environment, report, seed = "0", part, photonRange, checkpoint = "5m";
   std::optional<double> kernelWidth;
+  std::string dropError = "0%";
 };
 
 /// The two numbers of "A/B" or "A:B".
@@ -46,6 +47,7 @@ void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
   finishLayout(options, texts.layout);
   options.seed = parseCount("--seed", texts.seed);
   options.kernel.width = texts.kernelWidth.value_or(defaultKernelWidth(options.kernel.shape));
+  options.dropError = parsePercentage("--drop-error", texts.dropError);
   options.checkpointSeconds = texts.checkpoint == "0" ? 0 : parseDuration("--checkpoint", texts.checkpoint);
   finishPiece(options, texts, photonsGiven);
 }
@@ -57,6 +59,7 @@ void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
                  "distance in texels at which the kernel ends: wider is smoother and blurrier; of adaptive the widest")
       ->default_str("1.5, of adaptive 4.5");
   addSeams(cmd, o.seams, "fit");
+  cmd.add_option("--drop-error", texts.dropError, kDropHelp)->capture_default_str();
   cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();
   addChoice<SamplerKind>(cmd, "--sampler", o.sampler, {{"random", SamplerKind::random}, {"sobol", SamplerKind::sobol}},
                          "sobol", "numbers of the photons: sobol (low discrepancy, less noise) or random");

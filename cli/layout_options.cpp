@@ -1,5 +1,7 @@
 #include "cli/layout_options.h"
 
+#include <algorithm>
+
 #include "base/units.h"
 #include "cli/choices.h"
 
@@ -8,8 +10,9 @@ namespace lucarne {
 void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts) {
   cmd.add_option("--photons", texts.photons, "photons to trace, e.g. 20M or 1e9; four times as many halve the noise")
       ->capture_default_str();
-  cmd.add_option("--directions", o.directions,
-                 "size of the direction set: more show sharper highlights, cost memory and frame time")
+  cmd.add_option("--directions", texts.directions,
+                 "size of the direction set: more show sharper highlights, cost memory and frame time; auto: 14, 32 or 64, as "
+                 "the scene's glossy surfaces need")
       ->capture_default_str();
   cmd.add_option("--density", o.texelsPerMetre, "texels per metre: finer shadows, more noise for the same photons")
       ->capture_default_str();
@@ -26,6 +29,11 @@ void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts) {
 
 void finishLayout(BakeOptions& o, const LayoutTexts& texts) {
   o.photons = parseCount("--photons", texts.photons);
+  o.chooseDirections = texts.directions == "auto";
+  if (!o.chooseDirections) {
+    constexpr std::uint64_t kTooMany = 1 << 20;  // refused later, with the others that are out of range
+    o.directions = static_cast<int>(std::min(kTooMany, parseCount("--directions", texts.directions)));
+  }
   o.directSamples = parseCount("--direct-samples", texts.directSamples);
   o.texelBudget = parseCount("--texels", texts.texels);
 }

@@ -11,7 +11,7 @@ namespace lucarne {
 
 /// Numbers arrive as text, so that 20M and 1e9 work and nonsense is refused in our words.
 struct LayoutTexts {
-  std::string photons = "20M", texels = "1M", directSamples = "64";
+  std::string photons = "20M", directions = "auto", texels = "1M", directSamples = "64";
 };
 
 /// --photons, --directions, --density, --charts, --texels, --direct, --direct-samples, --keep-all-directions. `o` and

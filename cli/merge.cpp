@@ -13,7 +13,7 @@
 namespace lucarne {
 namespace {
 
-void addOptions(CLI::App& cmd, MergeOptions& o) {
+void addOptions(CLI::App& cmd, MergeOptions& o, std::string& dropError) {
   cmd.add_option("PARTS", o.inputs, "parts, folders that hold .part files, or @LIST: a file with a path a line")
       ->required();
   cmd.add_option("-o,--output", o.output, "NAME.dlm: light maps; NAME.part: one part that holds them all");
@@ -24,6 +24,7 @@ void addOptions(CLI::App& cmd, MergeOptions& o) {
   for (const auto& [name, shape] : kernelShapes()) shapes[name] = shape;
   addChoice<std::optional<KernelShape>>(cmd, "--kernel", o.kernel, shapes, "as baked", kKernelHelp);
   addSeams(cmd, o.seams, "as baked");
+  cmd.add_option("--drop-error", dropError, kDropHelp)->default_str("as baked");
   addFormatOptions(cmd, o.format);
   cmd.add_option("--report", o.report, "write what happened to a JSON file");
   cmd.add_flag("--quiet", o.quiet, "print errors only");
@@ -43,11 +44,13 @@ void addMerge(CLI::App& app, Action& action) {
   CLI::App* cmd = app.add_subcommand("merge", "add up the parts of a bake that was shared by several machines");
   const auto options = std::make_shared<MergeOptions>();
   const auto verify = std::make_shared<bool>(false);
-  addOptions(*cmd, *options);
+  const auto dropError = std::make_shared<std::string>();
+  addOptions(*cmd, *options, *dropError);
   cmd->add_flag("--verify", *verify, "only check that the parts are whole and belong together; writes nothing");
   cmd->callback([=, &action] {
     action = [=] {
       setQuiet(options->quiet);
+      if (!dropError->empty()) options->dropError = parsePercentage("--drop-error", *dropError);
       if (*verify) options->output.reset();
       if (!*verify && !options->output) throw UsageError("-o NAME.dlm or NAME.part is missing (or --verify)");
       tell(*options, merge(*options));

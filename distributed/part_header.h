@@ -83,7 +83,7 @@ struct PartHeader {
 };
 
 /// Members of `resolve`, all of them.
-inline constexpr std::array kResolveMembers = {"kernel", "kernel_width"};
+inline constexpr std::array kResolveMembers = {"kernel", "kernel_width", "seams", "drop_error"};
 
 /// Where two identities differ, in words that fit into "… differ in …": "seed: 0 and 1". Empty where they agree.
 /// Members of `resolve` that are among `chosen` do not count.
