@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "dlm/dlm_reader_steps.h"
 #include "dlm/dlm_reader_pages.h"
 #include "dlm/manifest.h"
 #include "dlm/manifest_seal.h"
@@ -45,6 +46,23 @@ void checkCharts(const Scene& scene, const LightMaps& maps, const std::string& f
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) checkTriangle(scene, maps, i, file);
 }
 
+constexpr double kChecking = 0.15;  // of the time that all takes: the hashes of the files
+
+/// Which share of the rest is done before the irradiance, and before the directional maps: by the files' bytes.
+struct Shares {
+  double irradiance = 0, directional = 0;
+  explicit Shares(const std::filesystem::path& folder) {
+    const auto bytes = [&](const char* name) {
+      std::error_code none;
+      const auto size = std::filesystem::file_size(folder / name, none);
+      return none ? 1.0 : static_cast<double>(size) + 1;
+    };
+    const double a = bytes(dlm_file::kScene), b = bytes(dlm_file::kIrradiance), c = bytes(dlm_file::kDirectional);
+    irradiance = kChecking + (1 - kChecking) * a / (a + b + c);
+    directional = kChecking + (1 - kChecking) * (a + b) / (a + b + c);
+  }
+};
+
 }  // namespace
 
 nlohmann::json readManifest(const std::filesystem::path& folder) {
@@ -62,14 +80,24 @@ nlohmann::json readManifest(const std::filesystem::path& folder) {
 }
 
 Dlm readDlm(const std::filesystem::path& folder) {
+  return readDlm(folder, [](const std::string&, double) {});
+}
+
+Dlm readDlm(const std::filesystem::path& folder, const DlmStep& observe) {
   Dlm dlm;
   dlm.manifest = readManifest(folder);
+  const Shares shares(folder);
+  observe("checking the files", 0);
   ManifestContents contents = readManifestMaps(dlm.manifest, (folder / dlm_file::kManifest).string());
   for (const char* name : {dlm_file::kScene, dlm_file::kIrradiance}) checkSeal(dlm.manifest, folder, name);
   if (!contents.pages.directional.layers.empty()) checkSeal(dlm.manifest, folder, dlm_file::kDirectional);
+  observe("reading the scene", kChecking);
   const std::filesystem::path scenePath = folder / dlm_file::kScene;
   dlm.scene = readGltf(scenePath);
-  dlm.maps = readPages(folder, std::move(contents));
+  observe("reading the irradiance", shares.irradiance);
+  dlm.maps = readPages(folder, std::move(contents),
+                       [&] { observe("reading the directional maps", shares.directional); });
+  observe("checking the charts", 1);
   checkCharts(dlm.scene, dlm.maps, scenePath.string());
   return dlm;
 }

@@ -175,9 +175,11 @@ void readDirectional(const std::filesystem::path& path, const ManifestContents& 
 
 }  // namespace
 
-LightMaps readPages(const std::filesystem::path& folder, ManifestContents contents) {
+LightMaps readPages(const std::filesystem::path& folder, ManifestContents contents,
+                    const std::function<void()>& betweenFiles) {
   LightMaps maps = std::move(contents.maps);
   readIrradiance(folder / dlm_file::kIrradiance, contents, maps);
+  betweenFiles();
   if (!contents.pages.directional.layers.empty()) readDirectional(folder / dlm_file::kDirectional, contents, maps);
   return maps;
 }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "dlm/manifest.h"
 
 namespace lucarne {
 
-/// Reads both image files and fills all texels. InputError names the file.
-LightMaps readPages(const std::filesystem::path& folder, ManifestContents contents);
+/// Reads both image files and fills all texels. InputError names the file. `betweenFiles` is called between the two.
+LightMaps readPages(const std::filesystem::path& folder, ManifestContents contents,
+                    const std::function<void()>& betweenFiles);
 
 }  // namespace lucarne

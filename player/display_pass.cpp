@@ -31,8 +31,8 @@ float DisplayPass::meter(const FrameTarget& frame) const {
   return autoExposure(readBack(coarse_));
 }
 
-void DisplayPass::show(const FrameTarget& frame, float exposure, int width, int height) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+void DisplayPass::show(const FrameTarget& frame, float exposure, int width, int height, GLuint framebuffer) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);

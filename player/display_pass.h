@@ -11,8 +11,8 @@ class DisplayPass {
 
   /// autoExposure() of a coarse copy of the frame; waits for the driver.
   float meter(const FrameTarget& frame) const;
-  /// Stretches the frame over the default framebuffer, which is width × height pixels.
-  void show(const FrameTarget& frame, float exposure, int width, int height) const;
+  /// Stretches the frame over a framebuffer (0: the default one), which is width × height pixels.
+  void show(const FrameTarget& frame, float exposure, int width, int height, GLuint framebuffer = 0) const;
 
  private:
   GlProgram program_;

@@ -77,8 +77,8 @@ void FrameRenderer::prepass(const FrameTarget& target) const {
   glDepthFunc(GL_EQUAL);
 }
 
-void FrameRenderer::bindCommon(const FrameTarget& target) const {
-  glBindVertexArray(scene_.layout.get());
+void FrameRenderer::bindCommon(const FrameTarget& target) {
+  glBindVertexArray(scene_.layout());
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, camera_.get());
   const GLuint buffers[] = {maps_.sides.get(), scene_.materials.get(), maps_.cells.get(), maps_.memberBits.get()};
   for (GLuint i = 0; i < 4; ++i) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);

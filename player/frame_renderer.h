@@ -1,5 +1,5 @@
-// Draws frames of one scene with its light maps; needs a current OpenGL 4.5 context for its whole life. The same code
-// serves the window and the offscreen pictures.
+// Draws frames of one scene with its light maps; needs a current OpenGL 4.5 context for its whole life: one, or first one
+// that it is made in and then another that shares its objects. The same code serves the window and the offscreen pictures.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ class FrameRenderer {
  private:
   void uploadCamera(const FrameView& view, const FrameTarget& target) const;
   void prepass(const FrameTarget& target) const;
-  void bindCommon(const FrameTarget& target) const;
+  void bindCommon(const FrameTarget& target);
 
   GpuMaps maps_;
   GpuScene scene_;

@@ -23,4 +23,11 @@ FrameTarget::FrameTarget(int width_, int height_, bool exact)
       sums(makeFramebuffer(lobe.get(), depth.get(), "a 32-bit float image")),
       shading(makeFramebuffer(color.get(), depth.get(), "a float image")) {}
 
+std::uint64_t FrameTarget::bytes() const {
+  GLint red = 0;  // bits
+  glGetTextureLevelParameteriv(color.get(), 0, GL_TEXTURE_RED_SIZE, &red);
+  const auto perPixel = static_cast<std::uint64_t>(red / 8 * 4 + 4 + 4 + 16);
+  return perPixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
+
 }  // namespace lucarne

@@ -14,7 +14,9 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-void checkSize(const RenderOptions& options) {
+}  // namespace
+
+void checkPictureSize(const RenderOptions& options) {
   const int limit = textureLimits().size;
   if (options.width < 1 || options.height < 1 || options.width > limit || options.height > limit) {
     throw UsageError("--size " + std::to_string(options.width) + "x" + std::to_string(options.height) +
@@ -22,13 +24,11 @@ void checkSize(const RenderOptions& options) {
   }
 }
 
-}  // namespace
-
 ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
                      RenderStats* stats) {
   const Clock::time_point start = Clock::now();
   const HeadlessGl gl;
-  checkSize(options);
+  checkPictureSize(options);
   FrameRenderer renderer(scene, maps, options.format, 1.f, options.lobe);
   const FrameTarget target(options.width, options.height, true);
   const double loaded = secondsSince(start);

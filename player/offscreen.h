@@ -14,4 +14,7 @@ namespace lucarne {
 ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
                      RenderStats* stats = nullptr);
 
+/// Error(usage) for a size that the current context cannot draw.
+void checkPictureSize(const RenderOptions& options);
+
 }  // namespace lucarne

@@ -38,8 +38,12 @@ void drawHelp(bool open) {
   }
   ImGui::Separator();
   ImGui::TextUnformatted(
-      "W A S D   walk          Q E   down, up\n"
-      "Shift     run           mouse look (click; Esc lets go)\n"
+      "W A S D   walk          mouse look (click; Esc lets go)\n"
+      "Shift     run           wheel walk faster, slower\n"
+      "C         crouch        space jump\n"
+      "F         fly, walk     Q E   fly down, up\n"
+      "N P       next, previous camera   Home  back to it\n"
+      "R         reload the maps\n"
       "1 2       singlepass, multipass\n"
       "+ - 0     brighter, darker, automatic\n"
       "H F1      this help     Esc   quit");
@@ -47,33 +51,50 @@ void drawHelp(bool open) {
 
 }  // namespace
 
-Overlay::Overlay(GLFWwindow* window) {
+Overlay::Overlay(GLFWwindow* window) : window_(window) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
   ImGui::StyleColorsDark();
-  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  if (window_ != nullptr) ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
 Overlay::~Overlay() {
   ImGui_ImplOpenGL3_Shutdown();
-  ImGui_ImplGlfw_Shutdown();
+  if (window_ != nullptr) ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
 }
 
-void Overlay::draw(const OverlayText& text) {
+void Overlay::newFrame(const OverlayText& text) {
   ImGui_ImplOpenGL3_NewFrame();
-  ImGui_ImplGlfw_NewFrame();
+  if (window_ != nullptr) {
+    ImGui_ImplGlfw_NewFrame();
+  } else {
+    ImGui::GetIO().DisplaySize = {static_cast<float>(text.width), static_cast<float>(text.height)};
+    ImGui::GetIO().DeltaTime = 1.f / 60;
+  }
   ImGui::NewFrame();
+}
+
+void Overlay::layOut(const OverlayText& text) {
+  newFrame(text);
   ImGui::SetNextWindowPos({8, 8});
   ImGui::SetNextWindowBgAlpha(0.55f);
   ImGui::Begin("lucarne", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-  drawNumbers(text);
-  drawHelp(text.help);
+  if (!text.note.empty()) ImGui::TextUnformatted(text.note.c_str());
+  if (text.stats.directions > 0) {
+    drawNumbers(text);
+    drawHelp(text.help);
+  }
   ImGui::End();
   ImGui::Render();
+}
+
+void Overlay::draw(const OverlayText& text) {
+  layOut(text);
+  if (window_ == nullptr) layOut(text);  // a panel finds its size in one frame and shows it in the next
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

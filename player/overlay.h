@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "player/render_options.h"
 
@@ -18,17 +19,25 @@ struct OverlayText {
   int width = 0, height = 0;  // drawn pixels
   double exposureStops = 0;
   bool help = false;
+  std::string note;         // what happens just now: loading, an error; alone where nothing is drawn yet
 };
 
 class Overlay {
  public:
-  explicit Overlay(GLFWwindow* window);  // needs its context to be current
+  /// Needs its context to be current. Without a window (null) `draw` is for pictures of the text's size.
+  explicit Overlay(GLFWwindow* window);
   ~Overlay();
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
   /// Draws into the current framebuffer.
   void draw(const OverlayText& text);
+
+ private:
+  void newFrame(const OverlayText& text);
+  void layOut(const OverlayText& text);
+
+  GLFWwindow* window_;
 };
 
 }  // namespace lucarne

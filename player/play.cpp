@@ -6,15 +6,18 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/image_file.h"
-#include "player/camera_choice.h"
+#include "base/log.h"
+#include "dlm/dlm_reader.h"
 #include "player/display_pass.h"
-#include "player/frame_renderer.h"
+#include "player/eye_adaptation.h"
+#include "player/folder_watch.h"
 #include "player/gpu_timer.h"
 #include "player/overlay.h"
 #include "player/render_scale.h"
-#include "player/texel_formats.h"
-#include "player/walk_camera.h"
+#include "player/scene_loader.h"
+#include "player/walk_control.h"
 #include "player/window.h"
 
 namespace lucarne {
@@ -22,55 +25,107 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongestStep = 0.1;  // seconds: a slow frame must not throw the walker through a wall
-constexpr int kFramesPerMetering = 8;
-constexpr double kAdaptationSeconds = 0.4;  // of the eye
 constexpr float kStopPerKey = 0.5f;
+constexpr double kLookInterval = 0.5, kNoteSeconds = 5, kMinimisedWait = 0.1;  // seconds
 
-/// The window's frames are 16-bit: a power of two that keeps lamps and lit surfaces within them.
-float windowScale(const Scene& scene, const LightMaps& maps) {
-  float largest = 0;
-  for (const Material& m : scene.materials) largest = std::max(largest, maxComponent(m.emissive));
-  for (const Rgb& E : maps.irradiance) largest = std::max(largest, maxComponent(E));  // E/π, and room for highlights
-  return halfScale(largest);
-}
+double secondsBetween(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
 class Session {
  public:
-  Session(const Scene& scene, const LightMaps& maps, const PlayOptions& options)
+  Session(const std::filesystem::path& dlm, const PlayOptions& options)
       : options_(options),
-        walker_(chooseCamera(scene, options.camera), walkSpeed(scene)),
+        request_{dlm, options.camera, options.render.format},
         window_(options.render.width, options.render.height, options.title),
-        renderer_(scene, maps, options.render.format, windowScale(scene, maps)),
         overlay_(window_.handle()),
         driver_(driverName()),
         timer_(!isSoftwareDriver(driver_)),
         scale_(std::clamp(options.renderScale, 0.1, 1.0)),
-        kind_(options.render.renderer) {}
+        kind_(options.render.renderer),
+        watch_(dlm) {
+    if (!options.replay.empty()) path_ = readWalkPath(options.replay);
+    for (const auto& output : {options.record, options.benchmark, options.screenshot})
+      if (!output.empty()) checkWritable(output);
+    if (isBenchmark()) window_.setVsync(false);
+    benchmark_.pathFps = options.fps;
+    startLoading();
+  }
 
   PlayReport run() {
-    const Clock::time_point start = Clock::now();
-    Clock::time_point last = start;
+    Clock::time_point last = Clock::now();
     double step = 0;
     while (!window_.closing()) {
-      window_.poll();
+      window_.poll(window_.isMinimised() ? kMinimisedWait : 0);
       handleKeys();
+      keepLoaded();
       const WalkInput input = window_.takeWalk();
-      walker_.move(input, std::min(step, kLongestStep));
+      if (control_) move(step, input);
       drawFrame(step);
       const Clock::time_point now = Clock::now();
-      step = std::chrono::duration<double>(now - last).count();
+      step = secondsBetween(last, now);
       last = now;
-      scale_.update(step, input.moving());
-      smoothedStep_ = smoothedStep_ > 0 ? 0.9 * smoothedStep_ + 0.1 * step : step;
+      noteSeconds_ -= step;
+      countFrame(step, input.moving());
     }
     throwOnComplaint(window_.messages(), "drawing");
-    PlayReport report{frame_, std::chrono::duration<double>(last - start).count(), renderer_.stats()};
-    report.stats.driver = driver_;
-    return report;
+    return finish();
   }
 
  private:
+  bool isBenchmark() const { return !options_.benchmark.empty(); }
+
+  void startLoading() {
+    loader_ = std::make_unique<SceneLoader>(window_, request_);
+    watch_.forget();
+  }
+
+  void keepLoaded() {
+    if (loader_ && loader_->isDone()) takeLoaded();
+    const Clock::time_point now = Clock::now();
+    if (!options_.watch || loader_ || secondsBetween(lookedAt_, now) < kLookInterval) return;
+    lookedAt_ = now;
+    if (watch_.changed()) startLoading();
+  }
+
+  /// The first scene must load; a later one that does not leaves the one before.
+  void takeLoaded() {
+    const std::unique_ptr<SceneLoader> loader = std::move(loader_);
+    try {
+      shown_ = loader->take();
+      failure_.clear();
+    } catch (const Error& error) {
+      if (!shown_) throw;
+      failure_ = std::string("not reloaded: ") + error.what();
+      logWarning(failure_);
+      return;
+    }
+    if (control_) {
+      control_->moveTo(shown_->walk);
+      return;
+    }
+    control_ = std::make_unique<WalkControl>(shown_->walk, options_.fly);
+    const std::string note = options_.fly ? "" : control_->startNote();
+    if (!note.empty()) logInfo(note);
+    tell(note);
+    if (path_) control_->replay(*path_);
+    if (!options_.record.empty()) control_->record();
+    benchmark_.loadSeconds = shown_->loadSeconds;
+  }
+
+  void move(double step, const WalkInput& input) {
+    if (!isBenchmark()) return control_->advance(step, input);
+    control_->seek(static_cast<double>(frame_) / options_.fps);
+    if (frame_ + 1 >= frameCount(*path_, options_.fps)) window_.close();
+  }
+
+  void tell(const std::string& text) {
+    note_ = text;
+    noteSeconds_ = kNoteSeconds;
+  }
+  std::string note() const {
+    if (loader_) return loader_->progress();
+    return noteSeconds_ > 0 && !note_.empty() ? note_ : failure_;
+  }
+
   void handleKeys() {
     for (const WalkKey key : window_.takeKeys()) {
       switch (key) {
@@ -95,8 +150,20 @@ class Session {
         case WalkKey::help:
           help_ = !help_;
           break;
+        case WalkKey::reload:
+          if (!loader_) startLoading();
+          break;
+        default:
+          pressForWalk(key);
+          break;
       }
     }
+  }
+
+  void pressForWalk(WalkKey key) {
+    if (!control_ || isBenchmark()) return;
+    control_->press(key);
+    if (key == WalkKey::fly) tell(control_->flying() ? "flying" : "walking");
   }
 
   /// The target for the window as it is now; made anew only when the size changes.
@@ -108,30 +175,48 @@ class Session {
     return *target_;
   }
 
-  /// The automatic exposure follows the picture as an eye does, slowly and by ratios.
-  void adapt(const FrameTarget& frame, double step) {
-    if (frame_ % kFramesPerMetering == 0) metered_ = display_.meter(frame);
-    const double share = frame_ == 0 ? 1 : 1 - std::exp(-step / kAdaptationSeconds);
-    exposure_ = frame_ == 0 ? metered_ : exposure_ * static_cast<float>(std::pow(metered_ / exposure_, share));
-  }
-
   void drawFrame(double step) {
     const Window::Size size = window_.framebufferSize();
-    if (size.width < 1 || size.height < 1) return;  // minimised
-    const FrameTarget& frame = target(size);
-    timer_.begin();
-    renderer_.draw({walker_.camera()}, kind_, frame);
-    timer_.end();
-    adapt(frame, step);
-    display_.show(frame, exposure_ * std::exp2(stops_), size.width, size.height);
-    overlay_.draw({smoothedStep_, timer_.seconds(), kind_, renderer_.stats(), options_.photons, frame.width,
-                   frame.height, stops_, help_});
-    ++frame_;
-    if (options_.frames > 0 && frame_ >= static_cast<std::uint64_t>(options_.frames)) {
-      window_.close();
+    if (window_.isMinimised()) return;
+    OverlayText text;
+    if (shown_) {
+      const FrameTarget& frame = target(size);
+      timer_.begin();
+      shown_->renderer.draw({control_->camera()}, kind_, frame);
+      timer_.end();
+      eye_.follow(display_, frame, frame_, step);
+      display_.show(frame, eye_.exposure() * std::exp2(stops_), size.width, size.height);
+      text = {smoothedStep_,   timer_.seconds(),
+              kind_,           shown_->renderer.stats(),
+              shown_->photons, frame.width,
+              frame.height,    stops_,
+              help_,           note()};
+      ++frame_;
+    } else {
+      clear(size);
+      text.note = note();
     }
-    if (window_.closing() && !options_.screenshot.empty()) saveScreenshot(size);
+    overlay_.draw(text);
+    if (options_.frames > 0 && frame_ >= static_cast<std::uint64_t>(options_.frames)) window_.close();
+    if (window_.closing() && shown_ && !options_.screenshot.empty()) saveScreenshot(size);
     window_.swap();
+  }
+
+  static void clear(Window::Size size) {
+    constexpr GLfloat kBlack[4] = {0, 0, 0, 1};
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, size.width, size.height);
+    glClearBufferfv(GL_COLOR, 0, kBlack);
+  }
+
+  void countFrame(double step, bool moving) {
+    if (frame_ == 0) return;
+    scale_.update(step, moving);
+    smoothedStep_ = smoothedStep_ > 0 ? 0.9 * smoothedStep_ + 0.1 * step : step;
+    seconds_ += step;
+    if (!isBenchmark() || frame_ == 1) return;  // the first one waits for the shaders
+    benchmark_.frameSeconds.push_back(step);
+    if (timer_.seconds()) benchmark_.gpuSeconds.push_back(*timer_.seconds());
   }
 
   void saveScreenshot(Window::Size size) const {
@@ -148,27 +233,56 @@ class Session {
     writePng(options_.screenshot, size.width, size.height, flipped);
   }
 
+  PlayReport finish() {
+    PlayReport report{frame_, seconds_, {}};
+    if (shown_) report.stats = shown_->renderer.stats();
+    report.stats.driver = driver_;
+    if (control_ && !options_.record.empty()) writeFileAtomically(options_.record, textOf(control_->takeRecording()));
+    if (control_ && isBenchmark()) writeBenchmark(report.stats);
+    return report;
+  }
+
+  void writeBenchmark(const RenderStats& stats) {
+    benchmark_.width = target_->width;
+    benchmark_.height = target_->height;
+    benchmark_.options = options_.render;
+    benchmark_.stats = stats;
+    benchmark_.glBytes = stats.textureBytes + target_->bytes();
+    writeFileAtomically(options_.benchmark, textOf(benchmark_));
+  }
+
   const PlayOptions& options_;
-  WalkCamera walker_;
+  SceneRequest request_;
+  std::optional<WalkPath> path_;
   Window window_;  // before all that needs its context
-  FrameRenderer renderer_;
   DisplayPass display_;
   Overlay overlay_;
   std::string driver_;
   GpuTimer timer_;
   RenderScale scale_;
   RendererKind kind_;
+  FolderWatch watch_;
+  Clock::time_point lookedAt_{};
+  std::unique_ptr<ShownScene> shown_;
+  std::unique_ptr<WalkControl> control_;
   std::unique_ptr<FrameTarget> target_;
+  EyeAdaptation eye_;
   std::uint64_t frame_ = 0;
-  double smoothedStep_ = 0;
-  float metered_ = 1, exposure_ = 1, stops_ = 0;
+  double seconds_ = 0, smoothedStep_ = 0, noteSeconds_ = 0;
+  float stops_ = 0;
   bool help_ = false;
+  std::string note_, failure_;
+  Benchmark benchmark_;
+  std::unique_ptr<SceneLoader> loader_;  // last: it ends before what it shares
 };
 
 }  // namespace
 
-PlayReport play(const Scene& scene, const LightMaps& maps, const PlayOptions& options) {
-  return Session(scene, maps, options).run();
+PlayReport play(const std::filesystem::path& dlm, const PlayOptions& options) {
+  if (!options.benchmark.empty() && options.replay.empty())
+    throw UsageError("--benchmark needs --replay F: the walk that is timed");
+  readManifest(dlm);  // what is no folder of light maps is told before a window opens
+  return Session(dlm, options).run();
 }
 
 }  // namespace lucarne

@@ -4,20 +4,24 @@
 #include <filesystem>
 #include <string>
 
-#include "dlm/light_maps.h"
+#include "player/benchmark.h"
 #include "player/render_options.h"
-#include "tracer/scene/scene.h"
 
 namespace lucarne {
 
 struct PlayOptions {
   RenderOptions render;  // the window's first size, the first renderer, the light maps' format
   std::string camera;    // as chooseCamera()
+  bool fly = false;      // starts flying, exactly at the camera; else on the floor near it, where there is any
   std::string title = "Lucarne";
   double renderScale = 1;            // drawn pixels per window pixel, each way, 0.1 … 1
-  double photons = 0;                // of the bake, for the overlay; 0: not known
   int frames = 0;                    // > 0: ends after that many
   std::filesystem::path screenshot;  // not empty: the last frame with its overlay, as PNG
+  std::filesystem::path record;      // not empty: the walk is written there at the end (walk_path.h)
+  std::filesystem::path replay;      // not empty: a recorded walk leads the camera, until a key moves it
+  std::filesystem::path benchmark;   // not empty: replays without waiting for the display, reports there, and ends
+  double fps = 30;                   // of the benchmark: frames a second of the path
+  bool watch = false;                // loads the maps again when they have been replaced
 };
 
 /// How the session went.
@@ -27,7 +31,9 @@ struct PlayReport {
   RenderStats stats;   // of the last frame
 };
 
-/// Runs until the window is closed. Error(failed) without a display or OpenGL 4.5, Error(usage) for an unknown camera.
-PlayReport play(const Scene& scene, const LightMaps& maps, const PlayOptions& options);
+/// Runs until the window is closed. The maps are loaded while the window is there already, and again with the key R;
+/// maps that cannot be loaded again leave the old ones shown. Error(failed) without a display or OpenGL 4.5,
+/// Error(usage) for an unknown camera, those of readDlm() and readWalkPath().
+PlayReport play(const std::filesystem::path& dlm, const PlayOptions& options);
 
 }  // namespace lucarne

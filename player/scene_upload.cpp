@@ -65,9 +65,13 @@ GpuScene::GpuScene(const Scene& scene, const LightMaps& maps) : list(buildDrawLi
   vertices = makeBuffer(std::span<const GpuVertex>(list.vertices));
   vertexCount = static_cast<GLsizei>(list.vertices.size());
   list.vertices = {};
-  layout = vertexLayout(vertices);
   materials = uploadMaterials(scene);
   specularTable = uploadSpecularTable();
+}
+
+GLuint GpuScene::layout() {
+  if (layout_.get() == 0) layout_ = vertexLayout(vertices);
+  return layout_.get();
 }
 
 }  // namespace lucarne

@@ -11,12 +11,17 @@ namespace lucarne {
 struct GpuScene {
   GpuScene(const Scene& scene, const LightMaps& maps);  // needs a current context
 
+  /// The layout of `vertices`. Contexts share all objects but this: it belongs to the one in which it is first asked for.
+  GLuint layout();
+
   DrawList list;  // `vertices` is emptied after the upload
   SceneTextures textures;
   GlBuffer vertices, materials;
-  GlVertexArray layout;
   GlTexture specularTable;
   GLsizei vertexCount = 0;
+
+ private:
+  GlVertexArray layout_;
 };
 
 }  // namespace lucarne

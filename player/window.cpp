@@ -28,18 +28,24 @@ void requireDisplay() {
     throw Error(ExitCode::failed,
                 "play opens a window, but there is no display (DISPLAY is not set); use lucarne render for pictures");
   }
-  if (glfwInit() != GLFW_TRUE) throw Error(ExitCode::failed, "the display cannot be opened: " + glfwReason());
+  if (glfwInit() != GLFW_TRUE)
+    throw Error(ExitCode::failed, "play opens a window, but the display cannot be opened (" + glfwReason() +
+                                      "); use lucarne render for pictures");
+}
+
+void setHints() {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);  // frames are drawn elsewhere and copied
 }
 
 }  // namespace
 
 Window::Window(int width, int height, const std::string& title) : messages_(std::make_unique<GlMessages>()) {
   requireDisplay();
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);  // frames are drawn elsewhere and copied
+  setHints();
   window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) {
     const std::string reason = glfwReason();
@@ -51,6 +57,7 @@ Window::Window(int width, int height, const std::string& title) : messages_(std:
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, onKey);
   glfwSetMouseButtonCallback(window_, onButton);
+  glfwSetScrollCallback(window_, onScroll);
   listenToDriver(messages_.get());
 }
 
@@ -65,7 +72,20 @@ Window::Size Window::framebufferSize() const {
   return size;
 }
 
-void Window::poll() { glfwPollEvents(); }
+bool Window::isMinimised() const {
+  const Size size = framebufferSize();
+  return size.width < 1 || size.height < 1 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
+}
+
+void Window::poll(double waitSeconds) {
+  if (waitSeconds > 0) {
+    glfwWaitEventsTimeout(waitSeconds);
+  } else {
+    glfwPollEvents();
+  }
+}
+
+void Window::setVsync(bool wait) { glfwSwapInterval(wait ? 1 : 0); }
 std::vector<WalkKey> Window::takeKeys() { return std::exchange(keys_, {}); }
 bool Window::closing() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
@@ -73,9 +93,13 @@ void Window::swap() { glfwSwapBuffers(window_); }
 bool Window::held(int key) const { return glfwGetKey(window_, key) == GLFW_PRESS; }
 
 WalkInput Window::takeWalk() {
-  const auto axis = [&](int plus, int minus) { return (held(plus) ? 1. : 0.) - (held(minus) ? 1. : 0.); };
-  WalkInput input{axis(GLFW_KEY_W, GLFW_KEY_S), axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
-                  held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT)};
+  const auto either = [&](int a, int b) { return held(a) || held(b) ? 1. : 0.; };
+  WalkInput input;
+  input.forward = either(GLFW_KEY_W, GLFW_KEY_UP) - either(GLFW_KEY_S, GLFW_KEY_DOWN);
+  input.sideways = either(GLFW_KEY_D, GLFW_KEY_RIGHT) - either(GLFW_KEY_A, GLFW_KEY_LEFT);
+  input.upward = either(GLFW_KEY_E, GLFW_KEY_SPACE) - either(GLFW_KEY_Q, GLFW_KEY_Q);
+  input.run = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) > 0;
+  input.crouch = either(GLFW_KEY_C, GLFW_KEY_LEFT_CONTROL) > 0;
   double x = 0, y = 0;
   glfwGetCursorPos(window_, &x, &y);
   if (mouseHeld_ && mouseKnown_) {
@@ -85,6 +109,9 @@ WalkInput Window::takeWalk() {
   mouseKnown_ = true;
   mouseX_ = x;
   mouseY_ = y;
+  const double now = glfwGetTime();
+  gamepad_.add(input, keys_, now - lastTaken_);
+  lastTaken_ = now;
   return input;
 }
 
@@ -126,13 +153,50 @@ void Window::onKey(GLFWwindow* window, int key, int, int action, int) {
     case GLFW_KEY_H:
       self.keys_.push_back(WalkKey::help);
       break;
+    case GLFW_KEY_F:
+      self.keys_.push_back(WalkKey::fly);
+      break;
+    case GLFW_KEY_N:
+      self.keys_.push_back(WalkKey::nextCamera);
+      break;
+    case GLFW_KEY_P:
+      self.keys_.push_back(WalkKey::previousCamera);
+      break;
+    case GLFW_KEY_R:
+      self.keys_.push_back(WalkKey::reload);
+      break;
+    case GLFW_KEY_HOME:
+      self.keys_.push_back(WalkKey::startAgain);
+      break;
     default:
       break;
   }
 }
 
+void Window::onScroll(GLFWwindow* window, double, double y) {
+  if (y == 0) return;
+  static_cast<Window*>(glfwGetWindowUserPointer(window))->keys_.push_back(y > 0 ? WalkKey::faster : WalkKey::slower);
+}
+
 void Window::onButton(GLFWwindow* window, int, int action, int) {
   if (action == GLFW_PRESS) static_cast<Window*>(glfwGetWindowUserPointer(window))->holdMouse(true);
 }
+
+Window::SharedContext::SharedContext(const Window& window) {
+  setHints();
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  hidden_ = glfwCreateWindow(16, 16, "", nullptr, window.handle());
+  glfwDefaultWindowHints();
+  if (hidden_ == nullptr) throw Error(ExitCode::failed, "no second OpenGL context: " + glfwReason());
+}
+
+Window::SharedContext::~SharedContext() { glfwDestroyWindow(hidden_); }
+
+void Window::SharedContext::makeCurrent(GlMessages* sink) {
+  glfwMakeContextCurrent(hidden_);
+  listenToDriver(sink);
+}
+
+void Window::SharedContext::release() { glfwMakeContextCurrent(nullptr); }
 
 }  // namespace lucarne

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "player/gamepad.h"
 #include "player/gl_context.h"
-#include "player/walk_camera.h"
+#include "player/walk_input.h"
+#include "player/walk_key.h"
 
 struct GLFWwindow;
 
 namespace lucarne {
-
-enum class WalkKey { quit, singlepass, multipass, brighter, darker, autoExposure, help };
 
 class Window {
  public:
@@ -28,12 +28,15 @@ class Window {
   };
   Size framebufferSize() const;  // pixels; 0 while minimised
 
-  /// Handles the window's events.
-  void poll();
+  bool isMinimised() const;
+  /// Handles the window's events; waits up to that long for one.
+  void poll(double waitSeconds = 0);
+  /// Frames wait for the display (as they do at first), or come as fast as they can.
+  void setVsync(bool wait);
   /// Keys pressed since the last call, in order.
   std::vector<WalkKey> takeKeys();
-  /// Held keys and the mouse's way since the last call. The mouse turns the head while it is held by the window: click
-  /// to hold it, Esc lets go.
+  /// Held keys, the mouse's way since the last call, and the first gamepad. The mouse turns the head while it is held
+  /// by the window: click to hold it, Esc lets go.
   WalkInput takeWalk();
   bool closing() const;
   void close();
@@ -41,9 +44,26 @@ class Window {
 
   const GlMessages& messages() const { return *messages_; }
 
+  /// A second context, for another thread, that shares all objects but vertex arrays, framebuffers and queries. Made
+  /// and destroyed on the thread of the window.
+  class SharedContext {
+   public:
+    explicit SharedContext(const Window& window);
+    ~SharedContext();
+    SharedContext(const SharedContext&) = delete;
+    SharedContext& operator=(const SharedContext&) = delete;
+    /// On the thread that calls; `sink` must outlive the context.
+    void makeCurrent(GlMessages* sink);
+    void release();
+
+   private:
+    GLFWwindow* hidden_ = nullptr;
+  };
+
  private:
   static void onKey(GLFWwindow* window, int key, int scancode, int action, int mods);
   static void onButton(GLFWwindow* window, int button, int action, int mods);
+  static void onScroll(GLFWwindow* window, double x, double y);
   bool held(int key) const;
   void holdMouse(bool hold);
 
@@ -52,6 +72,8 @@ class Window {
   std::vector<WalkKey> keys_;
   bool mouseHeld_ = false, mouseKnown_ = false;
   double mouseX_ = 0, mouseY_ = 0;
+  double lastTaken_ = 0;  // seconds
+  Gamepad gamepad_;
 };
 
 }  // namespace lucarne

@@ -13,6 +13,7 @@ void addPlay(CLI::App& app, Action& action) {
   const auto options = std::make_shared<PlayOptions>();
   cmd->add_option("DLM", *dlm, "the light maps")->required();
   cmd->add_option("--camera", options->camera, "name or number (from 0) of the camera to start at");
+  cmd->add_flag("--fly", options->fly, "start flying, exactly at the camera, not on the floor near it");
   addRenderArguments(*cmd, options->render, *size, false);
   cmd->add_option("--scale", options->renderScale, "drawn pixels per window pixel, each way: lower is faster")
       ->check(CLI::Range(0.1, 1.0))
@@ -21,6 +22,14 @@ void addPlay(CLI::App& app, Action& action) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   cmd->add_option("--screenshot", options->screenshot, "save the last frame, overlay included, as a PNG");
+  const auto record = cmd->add_option("--record", options->record, "write the walk to this file at the end (JSON)");
+  cmd->add_option("--replay", options->replay, "walk a recorded path again; moving ends it")->excludes(record);
+  cmd->add_option("--benchmark", options->benchmark,
+                  "with --replay: draw the path as fast as it goes and write frame times to this file (JSON)");
+  cmd->add_option("--fps", options->fps, "of the benchmark: frames a second of the path")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  cmd->add_flag("--watch", options->watch, "load the maps again whenever they have been replaced");
   cmd->callback([=, &action] {
     action = [=] {
       applySize(*size, options->render);

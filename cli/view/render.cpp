@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/layout_options.h"
+#include "cli/view/animation.h"
 #include "cli/view/render_arguments.h"
 
 namespace lucarne {
@@ -23,18 +24,20 @@ void report(const RenderJob& job, const RenderStats& stats) {
 }  // namespace
 
 void addRender(CLI::App& app, Action& action) {
-  CLI::App* cmd = app.add_subcommand("render", "make a picture of light maps, without a display");
+  CLI::App* cmd = app.add_subcommand("render", "make a picture, or an animation, of light maps, without a display");
   const auto job = std::make_shared<RenderJob>();
   const auto size = std::make_shared<std::string>("1280x720");
   const auto quiet = std::make_shared<bool>(false);
   cmd->add_option("DLM", job->dlm, "the light maps; for pathtraced also a scene")->required();
-  cmd->add_option("-o,--output", job->output, "IMAGE.exr (linear cd/m²) or IMAGE.png (exposed and tone mapped)")->required();
+  cmd->add_option("-o,--output", job->output, "IMAGE.exr (linear cd/m²), IMAGE.png (exposed and tone mapped), or with --replay a folder");
   cmd->add_option("--camera", job->camera,
                   "name or number (from 0) of a camera of the scene; none: the first, or one that sees the scene");
   addRenderArguments(*cmd, job->options, *size, true);
   cmd->add_option("--samples", job->samples, "pathtraced: paths a pixel; four times as many halve the noise")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
+  const auto animation = std::make_shared<AnimationJob>();
+  addAnimationArguments(*cmd, *animation);
   const auto sky = std::make_shared<std::string>();
   addSkyOptions(*cmd, job->sky, *sky);
   cmd->add_option("--seed", job->sky.seed, "pathtraced: another seed gives other noise")->capture_default_str();
@@ -44,6 +47,7 @@ void addRender(CLI::App& app, Action& action) {
     action = [=] {
       setQuiet(*quiet);
       applySize(*size, job->options);
+      if (animateIfAsked(*animation, *job)) return;
       finishSky(job->sky, *sky);
       checkSettings(job->sky);
       report(*job, render(*job));

@@ -1,0 +1,149 @@
+#include "player/path_frames.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "player/eye_adaptation.h"
+#include "player/gl_context.h"
+#include "player/gpu_timer.h"
+#include "player/offscreen.h"
+#include "player/overlay.h"
+#include "player/shown_scene.h"
+
+namespace lucarne {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// What stands for the window's own picture.
+struct Screen {
+  Screen(int width_, int height_)
+      : width(width_),
+        height(height_),
+        color(makeTexture({GL_TEXTURE_2D, GL_RGBA8, 1, width, height, 1})),
+        framebuffer(makeFramebuffer(color.get(), 0, "an 8-bit image")) {}
+
+  std::vector<std::uint8_t> read() const {
+    const auto row = static_cast<std::size_t>(width) * 3;
+    std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height)), flipped;
+    flipped.reserve(pixels.size());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.get());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+    for (std::size_t y = static_cast<std::size_t>(height); y-- > 0;) {
+      const auto from = pixels.begin() + static_cast<std::ptrdiff_t>(y * row);
+      flipped.insert(flipped.end(), from, from + static_cast<std::ptrdiff_t>(row));
+    }
+    return flipped;
+  }
+
+  int width, height;
+  GlTexture color;
+  GlFramebuffer framebuffer;
+};
+
+class PathFrames {
+ public:
+  PathFrames(const Scene& scene, const LightMaps& maps, const WalkPath& path, const PathFramesOptions& options)
+      : options_(options),
+        path_(path),
+        frame_(scene.frame),
+        renderer_(scene, maps, options.render.format, windowScale(scene, maps), options.render.lobe),
+        target_(options.render.width, options.render.height, false),
+        screen_(options.render.width, options.render.height),
+        driver_(driverName()),
+        timer_(!isSoftwareDriver(driver_)) {
+    if (options.overlay) overlay_.emplace(nullptr);
+  }
+
+  Benchmark draw(const PathFramesSink& sink) {
+    const std::size_t count = frameCount(path_, options_.fps);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool wanted = sink.isWanted(i);
+      // The exposure follows from all frames before; of those that are not wanted, from the metered ones.
+      if (wanted || EyeAdaptation::meters(i)) drawScene(i);
+      if (EyeAdaptation::meters(i)) eye_.meter(display_.meter(target_));
+      eye_.pass(1 / options_.fps);
+      if (wanted) sink.take(i, finish());
+    }
+    return report();
+  }
+
+ private:
+  void drawScene(std::size_t i) {
+    start_ = Clock::now();
+    timer_.begin();
+    renderer_.draw({cameraOf(path_.at(static_cast<double>(i) / options_.fps), path_.yfov, frame_)},
+                   options_.render.renderer, target_);
+    timer_.end();
+  }
+
+  std::vector<std::uint8_t> finish() {
+    display_.show(target_, eye_.exposure(), screen_.width, screen_.height, screen_.framebuffer.get());
+    if (overlay_) {
+      OverlayText text;
+      text.frameSeconds = 1 / options_.fps;
+      text.renderer = options_.render.renderer;
+      text.stats = renderer_.stats();
+      text.photons = options_.photons;
+      text.width = screen_.width;
+      text.height = screen_.height;
+      overlay_->draw(text);
+    }
+    std::vector<std::uint8_t> pixels = screen_.read();
+    if (drawn_++ > 0) {  // the first one waits for the shaders
+      seconds_.push_back(secondsSince(start_));
+      if (timer_.seconds()) gpuSeconds_.push_back(*timer_.seconds());
+    }
+    return pixels;
+  }
+
+  Benchmark report() const {
+    Benchmark b;
+    b.frameSeconds = seconds_;
+    b.gpuSeconds = gpuSeconds_;
+    b.pathFps = options_.fps;
+    b.width = target_.width;
+    b.height = target_.height;
+    b.options = options_.render;
+    b.stats = renderer_.stats();
+    b.stats.driver = driver_;
+    b.glBytes = b.stats.textureBytes + target_.bytes();
+    return b;
+  }
+
+  const PathFramesOptions& options_;
+  const WalkPath& path_;
+  LocalFrame frame_;
+  FrameRenderer renderer_;
+  DisplayPass display_;
+  FrameTarget target_;
+  Screen screen_;
+  std::string driver_;
+  GpuTimer timer_;
+  EyeAdaptation eye_;
+  std::optional<Overlay> overlay_;
+  Clock::time_point start_;
+  std::size_t drawn_ = 0;
+  std::vector<double> seconds_, gpuSeconds_;
+};
+
+}  // namespace
+
+Benchmark drawPath(const Scene& scene, const LightMaps& maps, const WalkPath& path, const PathFramesOptions& options,
+                   const PathFramesSink& sink) {
+  const Clock::time_point start = Clock::now();
+  const HeadlessGl gl;
+  checkPictureSize(options.render);
+  PathFrames frames(scene, maps, path, options);
+  glFinish();
+  const double loadSeconds = secondsSince(start);
+  Benchmark benchmark = frames.draw(sink);
+  benchmark.loadSeconds = loadSeconds;
+  throwOnComplaint(gl.messages(), "drawing");
+  return benchmark;
+}
+
+}  // namespace lucarne

@@ -1,0 +1,35 @@
+// Light maps, ready to be drawn and walked in; read and sent to the GPU beside the window's own work.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "player/frame_renderer.h"
+#include "player/walk_control.h"
+
+namespace lucarne {
+
+struct ShownScene {
+  FrameRenderer renderer;
+  std::shared_ptr<const WalkScene> walk;
+  double photons;  // of the bake; 0: not known
+  double loadSeconds;
+};
+
+/// Power of two that keeps lamps and lit surfaces within 16-bit floats.
+float windowScale(const Scene& scene, const LightMaps& maps);
+
+struct SceneRequest {
+  std::filesystem::path dlm;
+  std::string camera;  // as chooseCamera()
+  LightMapFormat format = LightMapFormat::half;
+};
+
+/// Told before each step of loading; what it throws ends the loading.
+using LoadObserver = std::function<void(const std::string& step, double share)>;
+
+/// Reads and uploads; needs a current context. Errors of readDlm(), uploadMaps() and chooseCamera().
+std::unique_ptr<ShownScene> loadScene(const SceneRequest& request, const LoadObserver& observe);
+
+}  // namespace lucarne
