@@ -77,7 +77,8 @@ DrawList buildDrawList(const Scene& scene, const LightMaps& maps) {
   checkCharts(scene, maps);
   const auto keyOf = [&](std::uint32_t triangle) {
     const std::uint32_t chart = scene.chartOfTriangle[triangle], material = scene.triangles[triangle].material;
-    return std::tuple(needsCellTable(maps.charts[chart]), isTextured(scene.materials[material]), material, chart);
+    return std::tuple(ShaderVariant{needsCellTable(maps.charts[chart]), isTextured(scene.materials[material])},
+                      material, chart);
   };
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
@@ -88,11 +89,11 @@ DrawList buildDrawList(const Scene& scene, const LightMaps& maps) {
   DrawList list;
   list.vertices.reserve(order.size() * 3);
   for (const std::uint32_t triangle : order) {
-    const auto [curved, textured, material, chart] = keyOf(triangle);
+    const auto [variant, material, chart] = keyOf(triangle);
     const auto vertex = static_cast<std::uint32_t>(list.vertices.size());
     if (list.batches.empty() ||
-        std::tie(list.batches.back().curved, list.batches.back().material) != std::tie(curved, material)) {
-      list.batches.push_back({curved, textured, material, vertex, 0, static_cast<std::uint32_t>(list.runs.size()), 0});
+        std::tie(list.batches.back().variant, list.batches.back().material) != std::tie(variant, material)) {
+      list.batches.push_back({variant, material, vertex, 0, static_cast<std::uint32_t>(list.runs.size()), 0});
     }
     Batch& batch = list.batches.back();
     if (batch.runCount == 0 || list.runs.back().chart != chart) {

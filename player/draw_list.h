@@ -6,6 +6,7 @@
 
 #include "dlm/light_maps.h"
 #include "player/gpu_records.h"
+#include "player/programs.h"
 #include "tracer/scene/scene.h"
 
 namespace lucarne {
@@ -18,8 +19,7 @@ struct ChartRun {
 
 /// Charts that are drawn with one shader variant and one material.
 struct Batch {
-  bool curved = false;    // cells are looked up by normal (needsCellTable)
-  bool textured = false;  // the material has a texture
+  ShaderVariant variant;
   std::uint32_t material = 0;
   std::uint32_t firstVertex = 0, vertexCount = 0;
   std::uint32_t firstRun = 0, runCount = 0;

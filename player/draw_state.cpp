@@ -14,6 +14,7 @@ void DrawState::useProgram(const ShadingProgram& program) {
   program_ = &program;
   glUseProgram(program.program.get());
   if (material_ != ~0u) glUniform1i(program.materialIndex, static_cast<GLint>(material_));
+  if (program.view >= 0) glUniform3i(program.view, static_cast<GLint>(view_.kind), view_.psi, words_);
   if (direction_ >= 0) glUniform2i(program.direction, direction_, words_);
 }
 
@@ -23,6 +24,11 @@ void DrawState::setDirection(int psi, int words) {
   words_ = words;
   ++counts_.directionSwitches;
   if (program_ != nullptr) glUniform2i(program_->direction, psi, words);
+}
+
+void DrawState::setView(View view, int words) {
+  view_ = view;
+  words_ = words;
 }
 
 void DrawState::useMaterial(std::uint32_t material, const MaterialTextures* textures) {

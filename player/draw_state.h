@@ -6,6 +6,7 @@
 #include "player/programs.h"
 #include "player/render_options.h"
 #include "player/texture_upload.h"
+#include "player/view_kind.h"
 
 namespace lucarne {
 
@@ -18,6 +19,8 @@ class DrawState {
   /// ψ of the direction passes; `words` as MapTables::wordsPerSide. Every program gets it once.
   void setDirection(int psi, int words);
   void useMaterial(std::uint32_t material, const MaterialTextures* textures);
+  /// Of the view passes.
+  void setView(View view, int words);
   void countDraw() { ++counts_.draws; }
 
   const StateCounts& counts() const { return counts_; }
@@ -30,6 +33,7 @@ class DrawState {
   std::array<GLuint, 3> textures_{};
   std::uint32_t material_ = ~0u;
   int direction_ = -1, words_ = 1;
+  View view_;
 };
 
 }  // namespace lucarne

@@ -19,9 +19,19 @@ void set(float (&to)[4], Vec3d v, double w = 0) {
   to[3] = static_cast<float>(w);
 }
 
-ProgramConstants constantsOf(const GpuMaps& maps, float outputScale, LobeKind lobe, int directionCount) {
-  return {maps.cellSharpness,  maps.mapUnit,         outputScale, maps.layersPerStrip,
-          maps.cellTableNodes, maps.cellTableLayers, lobe,        capCosine(directionCount)};
+ProgramConstants constantsOf(const GpuMaps& maps, float outputScale, LobeKind lobe, int directionCount,
+                             double metresPerUnit) {
+  ProgramConstants c;
+  c.cellSharpness = maps.cellSharpness;
+  c.mapUnit = maps.mapUnit;
+  c.outputScale = outputScale;
+  c.metresPerUnit = static_cast<float>(metresPerUnit);
+  c.layersPerStrip = maps.layersPerStrip;
+  c.cellTableNodes = maps.cellTableNodes;
+  c.cellTableLayers = maps.cellTableLayers;
+  c.lobe = lobe;
+  c.capCosine = capCosine(directionCount);
+  return c;
 }
 
 /// State that no pass changes back.
@@ -41,11 +51,12 @@ FrameRenderer::FrameRenderer(const Scene& scene, const LightMaps& maps, LightMap
                              LobeKind lobe)
     : maps_(uploadMaps(maps, format)),
       scene_(scene, maps),
-      programs_(constantsOf(maps_, outputScale, lobe, maps.directionCount)),
+      programs_(constantsOf(maps_, outputScale, lobe, maps.directionCount, scene.frame.scale)),
       camera_(makeBuffer(std::as_bytes(std::span<const CameraBlock, 1>(std::array<CameraBlock, 1>{})),
                          GL_DYNAMIC_STORAGE_BIT)),
       singlepass_(makeSinglepass(scene_.list)),
-      multipass_(makeMultipass(scene_.list, maps)) {
+      multipass_(makeMultipass(scene_.list, maps)),
+      views_(makeViewRenderer(scene_.list)) {
   stats_.textureBytes = maps_.textureBytes + scene_.textures.bytes();
   stats_.lightMapBytes = maps_.lightMapBytes;
   stats_.directions = maps.directionCount;
@@ -86,16 +97,23 @@ void FrameRenderer::bindCommon(const FrameTarget& target) {
                              scene_.specularTable.get()};
   for (GLuint i = 0; i < 4; ++i) glBindTextureUnit(i, textures[i]);
   glBindTextureUnit(8, target.owner.get());
+  glBindTextureUnit(9, maps_.statistics.get());
+}
+
+MapRenderer& FrameRenderer::rendererFor(const View& view, RendererKind renderer) {
+  if (view.kind != ViewKind::full) return *views_;
+  return renderer == RendererKind::multipass ? *multipass_ : *singlepass_;
 }
 
 void FrameRenderer::draw(const FrameView& view, RendererKind renderer, const FrameTarget& target) {
   constexpr GLfloat kBlack[4] = {};
-  MapRenderer& shading = renderer == RendererKind::multipass ? *multipass_ : *singlepass_;
+  MapRenderer& shading = rendererFor(view.view, renderer);
   setFixedState(target);
   uploadCamera(view, target);
   bindCommon(target);
   glClearNamedFramebufferfv(target.shading.get(), GL_COLOR, 0, kBlack);
   state_.reset();
+  state_.setView(view.view, maps_.wordsPerSide);
   prepass(target);
   state_.countDraw();
   shading.shade({scene_, maps_, programs_}, target, state_);

@@ -12,6 +12,7 @@ namespace lucarne {
 struct FrameView {
   Camera camera;
   double shiftX = 0, shiftY = 0;  // of the whole image, in pixels (for supersampling)
+  View view{};
 };
 
 class FrameRenderer {
@@ -20,7 +21,8 @@ class FrameRenderer {
   FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale = 1.f,
                 LobeKind lobe = LobeKind::cell);
 
-  /// Fills target.color with outputScale · cd/m²; black where nothing is.
+  /// Fills target.color with outputScale · cd/m², or what the view says (light scaled likewise); black where nothing
+  /// is.
   void draw(const FrameView& view, RendererKind renderer, const FrameTarget& target);
 
   /// Of the last frame drawn; times are left to the caller.
@@ -29,13 +31,14 @@ class FrameRenderer {
  private:
   void uploadCamera(const FrameView& view, const FrameTarget& target) const;
   void prepass(const FrameTarget& target) const;
+  MapRenderer& rendererFor(const View& view, RendererKind renderer);
   void bindCommon(const FrameTarget& target);
 
   GpuMaps maps_;
   GpuScene scene_;
   Programs programs_;
   GlBuffer camera_;
-  std::unique_ptr<MapRenderer> singlepass_, multipass_;
+  std::unique_ptr<MapRenderer> singlepass_, multipass_, views_;
   DrawState state_;
   RenderStats stats_;
 };

@@ -31,6 +31,9 @@ class MapRenderer {
 /// One draw a material and variant; each fragment loops over the directions of its side.
 std::unique_ptr<MapRenderer> makeSinglepass(const DrawList& list);
 
+/// Shows what the maps hold (FrameView::view) instead of the light toward the eye.
+std::unique_ptr<MapRenderer> makeViewRenderer(const DrawList& list);
+
 /// The paper's: one additive pass a direction over the charts that have it, then one pass that composes. The direction
 /// changes as rarely as possible, then the program, then the material; batches are walked to and fro so that each
 /// direction starts with the material the last one ended with.

@@ -93,16 +93,35 @@ GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, Ligh
   return texture;
 }
 
-GlTexture uploadIrradiance(const LightMaps& maps, const LayeredPacking& packing) {
-  GlTexture texture = makeTexture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F, 1, packing.width, packing.height, packing.layers});
-  glClearTexImage(texture.get(), 0, GL_RGBA, GL_FLOAT, nullptr);
+/// One value a texel of the lit sides; `layout` is that of the floats at `texelsOf(side)`.
+template <class TexelsOf>
+GlTexture uploadSides(const LightMaps& maps, const LayeredPacking& packing, GLenum format, GLenum layout,
+                      const TexelsOf& texelsOf) {
+  GlTexture texture = makeTexture({GL_TEXTURE_2D_ARRAY, format, 1, packing.width, packing.height, packing.layers});
+  glClearTexImage(texture.get(), 0, layout, GL_FLOAT, nullptr);
   for (std::size_t i = 0; i < maps.sides.size(); ++i) {
     const SideMaps& side = maps.sides[i];
     if (!side.lit) continue;
     const LayeredPlace& place = packing.places[i];
-    glTextureSubImage3D(texture.get(), 0, place.x, place.y, place.layer, side.width, side.height, 1, GL_RGB, GL_FLOAT,
-                        &maps.irradiance[side.firstTexel]);
+    glTextureSubImage3D(texture.get(), 0, place.x, place.y, place.layer, side.width, side.height, 1, layout, GL_FLOAT,
+                        texelsOf(side));
   }
+  return texture;
+}
+
+GlTexture uploadIrradiance(const LightMaps& maps, const LayeredPacking& packing) {
+  return uploadSides(maps, packing, GL_RGBA32F, GL_RGB,
+                     [&](const SideMaps& side) { return &maps.irradiance[side.firstTexel]; });
+}
+
+GlTexture uploadStatistics(const LightMaps& maps, const LayeredPacking& packing) {
+  std::vector<Vec2f> texels(maps.irradiance.size());
+  const bool known = maps.photons.size() == texels.size() && maps.relativeError.size() == texels.size();
+  for (std::size_t i = 0; known && i < texels.size(); ++i) texels[i] = {maps.photons[i], maps.relativeError[i]};
+  GlTexture texture =
+      uploadSides(maps, packing, GL_RG32F, GL_RG, [&](const SideMaps& side) { return &texels[side.firstTexel]; });
+  glTextureParameteri(texture.get(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.get(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;
 }
 
@@ -159,8 +178,9 @@ GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format) {
   GpuMaps gpu;
   gpu.directional = uploadDirectional(maps, tables, format, scale);
   gpu.irradiance = uploadIrradiance(maps, tables.irradiance);
+  gpu.statistics = uploadStatistics(maps, tables.irradiance);
   gpu.lightMapBytes = tables.directional.texels() * gpuTexelBytes(format);
-  gpu.textureBytes = gpu.lightMapBytes + tables.irradiance.texels() * 16;
+  gpu.textureBytes = gpu.lightMapBytes + tables.irradiance.texels() * (16 + 8);
   if (anyNeedsCellTable(maps)) {
     uploadCellTable(set, limits, gpu);
   } else {

@@ -11,6 +11,7 @@ namespace lucarne {
 struct GpuMaps {
   GlTexture directional;  // 2D array
   GlTexture irradiance;   // 2D array, 32-bit float, lx
+  GlTexture statistics;   // 2D array, likewise: photons, relative error
   GlTexture cellTable;    // 2D array; one empty texel where no chart needs it
   GlBuffer sides, cells, memberBits;
   int cellTableNodes = 1, cellTableLayers = 1;

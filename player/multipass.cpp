@@ -19,7 +19,7 @@ class Multipass : public MapRenderer {
     for (std::uint32_t b = 0; b < list.batches.size(); ++b) {
       const Batch& batch = list.batches[b];
       for (std::uint32_t r = batch.firstRun; r < batch.firstRun + batch.runCount; ++r)
-        addRun(maps, list.runs[r], b, batch.textured);
+        addRun(maps, list.runs[r], b, batch.variant.textured);
     }
     for (std::size_t psi = 1; psi < passes_.size(); psi += 2) std::reverse(passes_[psi].begin(), passes_[psi].end());
   }
@@ -70,8 +70,8 @@ class Multipass : public MapRenderer {
   }
 
   void prepare(const DrawContext& c, PassKind pass, const Batch& batch, DrawState& state) const {
-    state.useProgram(c.programs.shading(pass, batch.curved, batch.textured));
-    state.useMaterial(batch.material, batch.textured ? &c.scene.textures.of(batch.material) : nullptr);
+    state.useProgram(c.programs.shading(pass, batch.variant));
+    state.useMaterial(batch.material, batch.variant.textured ? &c.scene.textures.of(batch.material) : nullptr);
   }
 
   void addDirections(const DrawContext& c, const FrameTarget& target, DrawState& state) const {

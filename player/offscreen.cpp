@@ -24,16 +24,43 @@ void checkPictureSize(const RenderOptions& options) {
   }
 }
 
+namespace {
+
+void checkView(const RenderOptions& options, const LightMaps& maps) {
+  if (options.view.kind != ViewKind::direction || (options.view.psi >= 0 && options.view.psi < maps.directionCount))
+    return;
+  throw UsageError("--psi " + std::to_string(options.view.psi) + ": these light maps have the directions 0 to " +
+                   std::to_string(maps.directionCount - 1));
+}
+
+/// The mean of pictures that are shifted by parts of a pixel, on a square grid.
+ImageRgb supersampled(FrameRenderer& renderer, const FrameTarget& target, const Camera& camera,
+                      const RenderOptions& options) {
+  const int n = options.supersamples;
+  ImageRgb sum{options.width, options.height, {}};
+  for (int i = 0; i < n * n; ++i) {
+    const auto shift = [&](int k) { return (k + 0.5) / n - 0.5; };
+    renderer.draw({camera, shift(i % n), shift(i / n), options.view}, options.renderer, target);
+    const ImageRgb image = readBack(target);
+    if (n == 1) return image;
+    sum.pixels.resize(image.pixels.size(), Rgb{});
+    for (std::size_t p = 0; p < image.pixels.size(); ++p) sum.pixels[p] += image.pixels[p] / static_cast<float>(n * n);
+  }
+  return sum;
+}
+
+}  // namespace
+
 ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
                      RenderStats* stats) {
   const Clock::time_point start = Clock::now();
   const HeadlessGl gl;
   checkPictureSize(options);
+  checkView(options, maps);
   FrameRenderer renderer(scene, maps, options.format, 1.f, options.lobe);
   const FrameTarget target(options.width, options.height, true);
   const double loaded = secondsSince(start);
-  renderer.draw({camera}, options.renderer, target);
-  ImageRgb image = readBack(target);
+  ImageRgb image = supersampled(renderer, target, camera, options);
   throwOnComplaint(gl.messages(), "drawing");
   if (stats != nullptr) {
     *stats = renderer.stats();

@@ -9,7 +9,8 @@
 namespace lucarne {
 
 /// Linear radiance, cd/m²; the camera's yfov is kept, the width follows from the size. The same input gives the same
-/// bits on one machine. Error(usage) for a size OpenGL cannot draw, Error(failed) without OpenGL 4.5,
+/// bits on one machine. Views have the values that view_kind.h says. Error(usage) for a size OpenGL cannot draw or a ψ
+/// that is not there, Error(failed) without OpenGL 4.5,
 /// Error(outOfResource) when the maps do not fit.
 ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
                      RenderStats* stats = nullptr);

@@ -34,7 +34,7 @@ class Session {
  public:
   Session(const std::filesystem::path& dlm, const PlayOptions& options)
       : options_(options),
-        request_{dlm, options.camera, options.render.format},
+        request_{dlm, options.camera, options.render.format, options.render.lobe},
         window_(options.render.width, options.render.height, options.title),
         overlay_(window_.handle()),
         driver_(driverName()),

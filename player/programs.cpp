@@ -15,9 +15,11 @@ GlProgram build(const std::string& name, const Names& vertex, const Names& fragm
 Names fragmentFiles(PassKind pass) {
   switch (pass) {
     case PassKind::direction:
-      return {"surface.glsl", "cells.glsl", "direction_pass.glsl"};
+      return {"surface.glsl", "cells.glsl", "members.glsl", "direction_pass.glsl"};
     case PassKind::compose:
       return {"surface.glsl", "compose.glsl", "compose_pass.glsl"};
+    case PassKind::view:
+      return {"surface.glsl", "cells.glsl", "members.glsl", "compose.glsl", "view_pass.glsl"};
     case PassKind::singlepass:
       break;
   }
@@ -30,6 +32,7 @@ void setConstants(GLuint program, const ProgramConstants& c) {
   glProgramUniform1f(program, at("capCosine"), c.capCosine);
   glProgramUniform1f(program, at("mapUnit"), c.mapUnit);
   glProgramUniform1f(program, at("outputScale"), c.outputScale);
+  glProgramUniform1f(program, at("metresPerUnit"), c.metresPerUnit);
   glProgramUniform1i(program, at("layersPerStrip"), c.layersPerStrip);
   glProgramUniform2i(program, at("cellTableShape"), c.cellTableNodes, c.cellTableLayers);
 }
@@ -40,22 +43,25 @@ Programs::Programs(const ProgramConstants& constants)
     : constants_(constants),
       prepass_(build("prepass", {"camera.glsl", "prepass_vertex.glsl"}, {"prepass_fragment.glsl"})) {}
 
-const ShadingProgram& Programs::shading(PassKind pass, bool curved, bool textured) {
-  if (pass == PassKind::compose) curved = false;  // it looks at no cells
-  const auto key = std::tuple(pass, curved, textured);
+const ShadingProgram& Programs::shading(PassKind pass, ShaderVariant variant) {
+  if (pass == PassKind::compose || pass == PassKind::view) variant.curved = false;  // they look at no cells
+  const auto key = std::pair(pass, variant);
   const auto found = shading_.find(key);
   if (found != shading_.end()) return found->second;
 
   std::vector<std::string> defines;
-  if (curved) defines.emplace_back("CURVED");
-  if (textured) defines.emplace_back("TEXTURED");
+  if (variant.curved) defines.emplace_back("CURVED");
+  if (variant.textured) defines.emplace_back("TEXTURED");
+  if (pass == PassKind::view) defines.emplace_back("VIEW");
   if (constants_.lobe == LobeKind::barsi) defines.emplace_back("LOBE_BARSI");
   if (constants_.lobe == LobeKind::sample) defines.emplace_back("LOBE_SAMPLE");
   const Names files = fragmentFiles(pass);
-  ShadingProgram made{build(std::string(files.back()), {"camera.glsl", "surface_vertex.glsl"}, files, defines)};
+  ShadingProgram made{build(std::string(files.back()), {"camera.glsl", "surface_vertex.glsl"}, files, defines), -1, -1,
+                      -1};
   setConstants(made.program.get(), constants_);
   made.materialIndex = glGetUniformLocation(made.program.get(), "materialIndex");
   made.direction = glGetUniformLocation(made.program.get(), "direction");
+  made.view = glGetUniformLocation(made.program.get(), "view");
   return shading_.emplace(key, std::move(made)).first->second;
 }
 

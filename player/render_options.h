@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "player/view_kind.h"
+
 namespace lucarne {
 
 enum class RendererKind {
@@ -30,6 +32,8 @@ struct RenderOptions {
   RendererKind renderer = RendererKind::singlepass;
   LightMapFormat format = LightMapFormat::half;
   LobeKind lobe = LobeKind::cell;
+  View view{};
+  int supersamples = 1;  // pictures without a window: so many samples a pixel, each way
 };
 
 /// State changes of one frame.

@@ -34,7 +34,7 @@ std::unique_ptr<ShownScene> loadScene(const SceneRequest& request, const LoadObs
   observe("sorting the triangles", kReading);
   auto walk = std::make_shared<const WalkScene>(dlm.scene, chooseCamera(dlm.scene, request.camera));
   observe("sending the maps to the GPU", kSorting);
-  FrameRenderer renderer(dlm.scene, dlm.maps, request.format, windowScale(dlm.scene, dlm.maps));
+  FrameRenderer renderer(dlm.scene, dlm.maps, request.format, windowScale(dlm.scene, dlm.maps), request.lobe);
   glFinish();
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return std::make_unique<ShownScene>(

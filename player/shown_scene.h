@@ -24,6 +24,7 @@ struct SceneRequest {
   std::filesystem::path dlm;
   std::string camera;  // as chooseCamera()
   LightMapFormat format = LightMapFormat::half;
+  LobeKind lobe = LobeKind::cell;
 };
 
 /// Told before each step of loading; what it throws ends the loading.

@@ -8,9 +8,12 @@ namespace {
 
 constexpr double kMiddleGrey = 0.18, kDarkest = 1e-4, kBrightShare = 0.01;
 
-std::uint8_t toByte(float exposed) {
+constexpr double kWhitePerEv = 1.2;  // cd/m² at EV 0
+
+std::uint8_t toByte(float exposed, ToneCurve curve) {
   const float x = exposed > 0 ? std::min(exposed, 1e4f) : 0.f;  // NaN: 0
-  return static_cast<std::uint8_t>(std::lround(255.f * encodeSrgb(filmic(x))));
+  const float shown = curve == ToneCurve::filmic ? filmic(x) : std::min(x, 1.f);
+  return static_cast<std::uint8_t>(std::lround(255.f * encodeSrgb(shown)));
 }
 
 }  // namespace
@@ -39,11 +42,14 @@ float filmic(float x) { return std::clamp(x * (2.51f * x + 0.03f) / (x * (2.43f 
 
 float encodeSrgb(float c) { return c > 0.0031308f ? 1.055f * std::pow(c, 1.f / 2.4f) - 0.055f : 12.92f * c; }
 
-std::vector<std::uint8_t> toDisplay(const ImageRgb& image, float exposure) {
+double exposureOfEv100(double ev100) { return 1 / (kWhitePerEv * std::exp2(ev100)); }
+double ev100OfExposure(double exposure) { return -std::log2(kWhitePerEv * exposure); }
+
+std::vector<std::uint8_t> toDisplay(const ImageRgb& image, float exposure, ToneCurve curve) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() * 3);
   for (const Rgb& p : image.pixels) {
-    for (int i = 0; i < 3; ++i) bytes.push_back(toByte(p[i] * exposure));
+    for (int i = 0; i < 3; ++i) bytes.push_back(toByte(p[i] * exposure, curve));
   }
   return bytes;
 }

@@ -26,9 +26,7 @@ ImageRgb drawn(const RenderJob& job, RenderStats& stats) {
 }
 
 /// Of a scene, or of the one that light maps were made of.
-Scene sceneOf(const std::filesystem::path& path) {
-  return readGltf(holdsLightMaps(path) ? path / "scene.glb" : path);
-}
+Scene sceneOf(const std::filesystem::path& path) { return readGltf(holdsLightMaps(path) ? path / "scene.glb" : path); }
 
 ImageRgb pathTraced(const RenderJob& job, RenderStats& stats) {
   const auto start = std::chrono::steady_clock::now();
@@ -39,7 +37,9 @@ ImageRgb pathTraced(const RenderJob& job, RenderStats& stats) {
   PictureOptions options{job.options.width, job.options.height, job.samples, job.sky.seed, threadCount(job.sky)};
   const auto pixels = static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height);
   double told = 0;
-  const auto seconds = [&start] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto seconds = [&start] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   ImageRgb image = pathTracedPicture(photonScene, chooseCamera(scene, job.camera), options, [&](std::uint64_t done) {
     if (seconds() < told + 30) return;
     told = seconds();
@@ -52,18 +52,24 @@ ImageRgb pathTraced(const RenderJob& job, RenderStats& stats) {
 
 }  // namespace
 
-RenderStats render(const RenderJob& job) {
+RenderReport render(const RenderJob& job) {
   const std::string ending = job.output.extension().string();
   if (ending != ".exr" && ending != ".png") throw UsageError(job.output.string() + ": pictures are .exr or .png");
   checkWritable(job.output);
-  RenderStats stats;
-  const ImageRgb image = job.options.renderer == RendererKind::pathtraced ? pathTraced(job, stats) : drawn(job, stats);
+  const bool traced = job.options.renderer == RendererKind::pathtraced;
+  if (traced && job.options.view.kind != ViewKind::full)
+    throw UsageError("--view " + std::string(nameOf(job.options.view.kind)) +
+                     " shows light maps; the path tracer has none");
+  RenderReport report;
+  const ImageRgb image = traced ? pathTraced(job, report.stats) : drawn(job, report.stats);
   if (ending == ".exr") {
     writeExrRgb(job.output, image);
   } else {
-    writePng(job.output, image.width, image.height, toDisplay(image, autoExposure(image)));
+    DisplayedImage shown = displayImage(image, scaleOf(job.options.view.kind), job.display);
+    writePng(job.output, image.width, image.height, shown.bytes);
+    report.scale = std::move(shown.scale);
   }
-  return stats;
+  return report;
 }
 
 }  // namespace lucarne

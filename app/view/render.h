@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/bake_options.h"
+#include "player/display_image.h"
 #include "player/render_options.h"
 
 namespace lucarne {
@@ -14,11 +15,17 @@ struct RenderJob {
   // Of path-traced pictures: paths a pixel, and the sky that light maps do not keep. `dlm` may be a scene then.
   std::uint32_t samples = 64;
   BakeOptions sky;
-  std::string camera;                 // name or index; empty: the first, or one that sees the scene
+  std::string camera;  // name or index; empty: the first, or one that sees the scene
   RenderOptions options;
+  DisplayOptions display;  // of .png
+};
+
+struct RenderReport {
+  RenderStats stats;
+  std::string scale;  // DisplayedImage::scale of .png
 };
 
 /// Renders and writes the picture. UsageError for an unknown camera or ending.
-RenderStats render(const RenderJob& job);
+RenderReport render(const RenderJob& job);
 
 }  // namespace lucarne

@@ -10,15 +10,18 @@
 namespace lucarne {
 namespace {
 
-void report(const RenderJob& job, const RenderStats& stats) {
+void report(const RenderJob& job, const RenderReport& made) {
+  const RenderStats& stats = made.stats;
+  if (!made.scale.empty()) logInfo(std::string(nameOf(job.options.view.kind)) + ": " + made.scale);
   if (job.options.renderer == RendererKind::pathtraced) {
     logInfo("wrote " + job.output.string() + " with " + stats.driver + " in " + formatDuration(stats.frameSeconds));
     return;
   }
-  logInfo("wrote " + job.output.string() + " with " + stats.driver + ": frame " + formatNumber(1000 * stats.frameSeconds) +
-          " ms, " + std::to_string(stats.counts.draws) + " draws, " + std::to_string(stats.counts.directionSwitches) +
-          " direction switches (" + std::to_string(stats.unsorted.directionSwitches) + " unsorted), " +
-          formatBytes(stats.textureBytes) + " of textures");
+  logInfo("wrote " + job.output.string() + " with " + stats.driver + ": frame " +
+          formatNumber(1000 * stats.frameSeconds) + " ms, " + std::to_string(stats.counts.draws) + " draws, " +
+          std::to_string(stats.counts.directionSwitches) + " direction switches (" +
+          std::to_string(stats.unsorted.directionSwitches) + " unsorted), " + formatBytes(stats.textureBytes) +
+          " of textures");
 }
 
 }  // namespace
@@ -33,6 +36,16 @@ void addRender(CLI::App& app, Action& action) {
   cmd->add_option("--camera", job->camera,
                   "name or number (from 0) of a camera of the scene; none: the first, or one that sees the scene");
   addRenderArguments(*cmd, job->options, *size, true);
+  addViewArguments(*cmd, job->options.view);
+  addToneCurve(*cmd, job->display.curve);
+  const auto exposure = std::make_shared<std::string>("auto");
+  cmd->add_option("--exposure", *exposure,
+                  "of .png: auto, or an exposure value at ISO 100 as of a camera (5: a lamp-lit room, 15: noon)")
+      ->capture_default_str();
+  cmd->add_option("--supersample", job->options.supersamples,
+                  "so many samples a pixel, each way, for smooth edges; not of pathtraced")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
   cmd->add_option("--samples", job->samples, "pathtraced: paths a pixel; four times as many halve the noise")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
@@ -47,6 +60,7 @@ void addRender(CLI::App& app, Action& action) {
     action = [=] {
       setQuiet(*quiet);
       applySize(*size, job->options);
+      applyExposure(*exposure, job->display);
       if (animateIfAsked(*animation, *job)) return;
       finishSky(job->sky, *sky);
       checkSettings(job->sky);

@@ -1,5 +1,6 @@
 #include "cli/view/render_arguments.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "base/error.h"
@@ -19,12 +20,38 @@ void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size
       cmd, "--map-format", options.format,
       {{"half", LightMapFormat::half}, {"rgb9e5", LightMapFormat::rgb9e5}, {"float", LightMapFormat::float32}}, "half",
       "light maps on the GPU: half, rgb9e5 (half the memory) or float (exact)");
-  if (!withPathTracer) return;
   addChoice<LobeKind>(cmd, "--lobe", options.lobe,
                       {{"cell", LobeKind::cell}, {"barsi", LobeKind::barsi}, {"sample", LobeKind::sample}}, "cell",
                       "highlights: cell: the lobe averaged over each direction's cell and normalised; to compare with "
                       "it barsi: averaged by a "
                       "closed form, and sample: in the middle of the cell");
+}
+
+void addViewArguments(CLI::App& cmd, View& view) {
+  std::map<std::string, ViewKind> views;
+  std::string help = "what to show; .exr holds the values, .png colours for them:";
+  for (const ViewName& v : kViewNames) {
+    views.emplace(v.name, v.view);
+    help += (v.view == ViewKind::full ? " " : "; ") + std::string(v.name) + ": " + std::string(v.meaning);
+  }
+  addChoice<ViewKind>(cmd, "--view", view.kind, views, "full", help);
+  cmd.add_option("--psi", view.psi, "the direction of --view direction, from 0")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+void addToneCurve(CLI::App& cmd, ToneCurve& curve) {
+  addChoice<ToneCurve>(cmd, "--tonemap", curve, {{"filmic", ToneCurve::filmic}, {"plain", ToneCurve::plain}}, "filmic",
+                       "filmic: bends highlights and shadows; plain: what is above white is white");
+}
+
+void applyExposure(const std::string& exposure, DisplayOptions& options) {
+  if (exposure == "auto") return;
+  double value = 0;
+  char rest = 0;
+  if (std::sscanf(exposure.c_str(), "%lf%c", &value, &rest) != 1 || !(std::abs(value) <= 100))
+    throw UsageError("--exposure must be auto or an exposure value from -100 to 100, not '" + exposure + "'");
+  options.ev100 = value;
 }
 
 void applySize(const std::string& size, RenderOptions& options) {

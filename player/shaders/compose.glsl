@@ -3,10 +3,16 @@ layout(binding = 1) uniform sampler2DArray irradianceMaps;
 uniform float mapUnit;      // lx per unit of a stored value
 uniform float outputScale;  // target units per cd/m²
 
-vec3 irradianceAt(Side side) {
+vec3 irradiancePlace(Side side) {
   vec2 p = side.irradianceOrigin + clamp(v.chartUv * side.size, vec2(0.5), side.size - 0.5);
-  return textureLod(irradianceMaps, vec3(p / vec2(textureSize(irradianceMaps, 0).xy), float(side.irradianceLayer)), 0.0).rgb;
+  return vec3(p / vec2(textureSize(irradianceMaps, 0).xy), float(side.irradianceLayer));
 }
+vec3 irradianceAt(Side side) { return textureLod(irradianceMaps, irradiancePlace(side), 0.0).rgb; }
+
+#ifdef VIEW
+layout(binding = 9) uniform sampler2DArray statisticMaps;  // as irradianceMaps: photons, relative error; of the nearest texel
+vec2 statisticsAt(Side side) { return textureLod(statisticMaps, irradiancePlace(side), 0.0).rg; }
+#endif
 
 vec3 emittedRadiance(Material m) {
   vec3 Le = m.emissiveRoughness.rgb;

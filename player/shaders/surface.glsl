@@ -8,6 +8,9 @@ in Vertex {
   vec4 uv;
   vec2 chartUv;
   flat uvec2 sides;
+#ifdef VIEW
+  vec3 corner;  // barycentric coordinates
+#endif
 } v;
 
 struct Side {  // gpu_records.h
@@ -47,7 +50,8 @@ const float kMinAlpha = 1e-3;
 // with a wrong mipmap along the borders of charts.
 bool ownsPixel() { return texelFetch(ownerImage, ivec2(gl_FragCoord.xy), 0).r == v.sides.x; }
 
-Side visibleSide() { return sideRecords[gl_FrontFacing ? v.sides.x : v.sides.y]; }
+uint visibleRecord() { return gl_FrontFacing ? v.sides.x : v.sides.y; }
+Side visibleSide() { return sideRecords[visibleRecord()]; }
 
 // Shading normal on the visible side.
 vec3 shadingNormal() { return normalize(gl_FrontFacing ? v.normal : -v.normal); }

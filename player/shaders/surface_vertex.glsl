@@ -14,6 +14,9 @@ out Vertex {
   vec4 uv;       // set 0, set 1
   vec2 chartUv;  // 0..1 over the chart's rectangle
   flat uvec2 sides;
+#ifdef VIEW
+  vec3 corner;  // barycentric coordinates
+#endif
 } v;
 
 void main() {
@@ -23,4 +26,8 @@ void main() {
   v.uv = vec4(uv0, uv1);
   v.chartUv = chartUv;
   v.sides = sides;
+#ifdef VIEW
+  int k = gl_VertexID % 3;  // triangles have their corners to themselves
+  v.corner = vec3(k == 0, k == 1, k == 2);
+#endif
 }
