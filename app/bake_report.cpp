@@ -30,7 +30,9 @@ nlohmann::json leftOut(const Scene& scene, const BakePlan& plan, int directions)
 std::string droppedText(const DroppedMaps& d, double bound) {
   return std::to_string(d.maps) + " maps of faint directions, " +
          formatPercent(static_cast<double>(d.texels) / static_cast<double>(d.storedTexels)) + " of their texels: no texel loses more than " +
-         formatPercent(d.lost) + " (--drop-error " + formatPercent(bound) + ")";
+         formatPercent(d.lost) + "; colour of maps next to neutral, " +
+         formatPercent(static_cast<double>(d.neutralTexels) / static_cast<double>(d.storedTexels)) +
+         " of the texels (--drop-error " + formatPercent(bound) + ")";
 }
 
 nlohmann::json settingsToJson(const BakeOptions& o, const BakePlan& plan) {
@@ -106,7 +108,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["threads"] = threadCount(in.options);
   report["ranks"] = in.options.ranks;
   if (in.baked == nullptr) return report;
-  if (in.baked->dropped.maps > 0) report["left_out"].push_back(droppedText(in.baked->dropped, in.options.dropError));
+  if (in.baked->dropped.maps + in.baked->dropped.neutralTexels > 0) report["left_out"].push_back(droppedText(in.baked->dropped, in.options.dropError));
   report["seams"] = seamsToJson(in.baked->seams, in.options);
   report["map_bytes"] = storedMapBytes(in.baked->maps);
   if (in.options.format.directional == MapFormat::ldr8)

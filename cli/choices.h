@@ -33,7 +33,7 @@ inline std::map<std::string, KernelShape> kernelShapes() {
           {"linear", KernelShape::linear}};
 }
 inline constexpr const char* kDropHelp =
-    "leave out maps of faint directions: at no texel do reflections lose more light than this share of its irradiance, or of "
+    "leave out maps of faint directions, and the colour of neutral ones: at no texel do reflections lose more light than this share of its irradiance, or of "
     "its surface's mean, e.g. 0.5%";
 inline constexpr const char* kKernelHelp =
     "reconstruction kernel: pyramid, box, epanechnikov; linear: fits a plane, sharper at edges; or adaptive: at each texel the "

@@ -124,13 +124,16 @@ class PageReader {
  public:
   PageReader(const LayerFile& file, const ExrLayer& layer, const DirectionalPages& pages)
       : format_(pages.format), scale_(pages.scale) {
-    if (isCoded(format_)) {
+    if (layer.channels.size() == 1 && layer.channels[0].name == "Y") {
+      grey_ = &file.values(layer, "Y");
+    } else if (isCoded(format_)) {
       codes_ = &file.codes(layer, codeChannel(format_));
     } else {
       rgb_ = file.rgb(layer);
     }
   }
   Rgb at(std::size_t pixel, float mapScale) const {
+    if (grey_ != nullptr) return Rgb(static_cast<float>(static_cast<double>((*grey_)[pixel]) * scale_));
     if (format_ == MapFormat::ldr8) return unpackLdr8((*codes_)[pixel], mapScale);
     const Rgb v = format_ == MapFormat::rgb9e5 ? unpackRgb9e5((*codes_)[pixel])
                                                : Rgb{(*rgb_[0])[pixel], (*rgb_[1])[pixel], (*rgb_[2])[pixel]};
@@ -141,6 +144,7 @@ class PageReader {
   MapFormat format_;
   double scale_;
   std::array<const std::vector<float>*, 3> rgb_{};
+  const std::vector<float>* grey_ = nullptr;
   const std::vector<std::uint32_t>* codes_ = nullptr;
 };
 

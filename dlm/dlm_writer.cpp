@@ -53,7 +53,7 @@ PageLayout writeImages(const std::filesystem::path& folder, const LightMaps& map
     writeExr(folder / dlm_file::kIrradiance, layers, format.compression);
     pages.irradianceLayers = namesOf(layers);
   }
-  pages.directional = packDirectional(maps);
+  pages.directional = packDirectional(maps, format.directional != MapFormat::ldr8);
   pages.directional.format = format.directional;
   const bool bounded = format.directional == MapFormat::half || format.directional == MapFormat::rgb9e5;
   if (bounded) pages.directional.scale = directionalScale(maps);

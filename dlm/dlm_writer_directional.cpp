@@ -7,18 +7,19 @@
 namespace lucarne {
 namespace {
 
-ExrLayer emptyPage(const std::string& name, const DirectionalPages& pages) {
+ExrLayer emptyPage(const std::string& name, bool neutral, const DirectionalPages& pages) {
   ExrLayer page;
   page.name = name;
   page.width = pages.width;
   page.height = pages.height;
   const auto pixels = static_cast<std::size_t>(pages.width) * static_cast<std::size_t>(pages.height);
-  if (isCoded(pages.format)) {
+  if (isCoded(pages.format) && !neutral) {
     page.channels.push_back({codeChannel(pages.format), ChannelType::uint32, {}, std::vector<std::uint32_t>(pixels)});
     page.attributes["units"] = "lx, coded: see the manifest";
   } else {
-    const ChannelType type = pages.format == MapFormat::half ? ChannelType::half : ChannelType::float32;
-    for (const char* c : {"R", "G", "B"}) page.channels.push_back({c, type, std::vector<float>(pixels), {}});
+    const ChannelType type = pages.format == MapFormat::float32 ? ChannelType::float32 : ChannelType::half;
+    const std::vector<const char*> names = neutral ? std::vector{"Y"} : std::vector{"R", "G", "B"};
+    for (const char* c : names) page.channels.push_back({c, type, std::vector<float>(pixels), {}});
     page.attributes["units"] = "lx / directional_scale";
   }
   char text[32];
@@ -33,6 +34,10 @@ class TexelWriter {
   TexelWriter(const DirectionalPages& pages, ExrLayer& page, float mapScale)
       : format_(pages.format), perScale_(1 / pages.scale), mapScale_(mapScale), page_(page) {}
   void put(std::size_t pixel, const Rgb& value) {
+    if (page_.channels[0].name == "Y") {
+      page_.channels[0].floats[pixel] = static_cast<float>(static_cast<double>(value.x) * perScale_);
+      return;
+    }
     if (format_ == MapFormat::ldr8) {
       page_.channels[0].uints[pixel] = packLdr8(value, mapScale_);
       return;
@@ -71,7 +76,8 @@ void writeMap(const SideMaps& side, const Rgb* texels, int left, int top, const 
 
 std::vector<ExrLayer> directionalLayers(const LightMaps& maps, const DirectionalPages& pages) {
   std::vector<ExrLayer> layers;
-  for (const std::string& name : pages.layers) layers.push_back(emptyPage(name, pages));
+  for (std::size_t l = 0; l < pages.layers.size(); ++l)
+    layers.push_back(emptyPage(pages.layers[l], pages.neutral[l], pages));
   std::size_t k = 0, stored = 0;
   for (const SideMaps& side : maps.sides) {
     for (const SideDirection& direction : side.directions) {

@@ -1,4 +1,5 @@
 // Where the stored directional maps go.
+#include <algorithm>
 #include <cstdio>
 
 #include "base/error.h"
@@ -17,12 +18,21 @@ struct StoredMap {
   int width, height;
 };
 
-std::vector<std::vector<StoredMap>> storedMapsByPsi(const LightMaps& maps) {
+bool isNeutral(const LightMaps& maps, const SideMaps& side, const SideDirection& direction) {
+  const auto first = maps.directional.begin() + static_cast<std::ptrdiff_t>(direction.first);
+  return std::all_of(first, first + static_cast<std::ptrdiff_t>(side.texelCount()),
+                     [](const Rgb& v) { return v.x == v.y && v.x == v.z; });
+}
+
+enum class Kind { all, coloured, neutral };
+
+std::vector<std::vector<StoredMap>> storedMapsByPsi(const LightMaps& maps, Kind kind) {
   std::vector<std::vector<StoredMap>> byPsi(static_cast<std::size_t>(maps.directionCount));
   std::size_t member = 0;
   for (const SideMaps& side : maps.sides) {
     for (const SideDirection& direction : side.directions) {
-      if (direction.stored()) byPsi.at(direction.psi).push_back({member, side.width, side.height});
+      if (direction.stored() && (kind == Kind::all || (kind == Kind::neutral) == isNeutral(maps, side, direction)))
+        byPsi.at(direction.psi).push_back({member, side.width, side.height});
       ++member;
     }
   }
@@ -31,14 +41,15 @@ std::vector<std::vector<StoredMap>> storedMapsByPsi(const LightMaps& maps) {
 
 struct PackedGroup {
   std::size_t firstPsi, psiCount;
+  bool neutral;
   std::vector<StoredMap> maps;
   Packing packing;
 };
 
-std::vector<PackedGroup> packGroups(const std::vector<std::vector<StoredMap>>& byPsi, std::size_t psiPerGroup) {
-  std::vector<PackedGroup> groups;
+void packGroups(const std::vector<std::vector<StoredMap>>& byPsi, std::size_t psiPerGroup, bool neutral,
+                std::vector<PackedGroup>& groups) {
   for (std::size_t first = 0; first < byPsi.size(); first += psiPerGroup) {
-    PackedGroup group{first, std::min(psiPerGroup, byPsi.size() - first), {}, {}};
+    PackedGroup group{first, std::min(psiPerGroup, byPsi.size() - first), neutral, {}, {}};
     std::vector<RectSize> sizes;
     for (std::size_t psi = first; psi < first + group.psiCount; ++psi) {
       for (const StoredMap& map : byPsi[psi]) {
@@ -50,7 +61,6 @@ std::vector<PackedGroup> packGroups(const std::vector<std::vector<StoredMap>>& b
     group.packing = packRectangles(sizes, PackOptions{});
     groups.push_back(std::move(group));
   }
-  return groups;
 }
 
 std::size_t layerCount(const std::vector<PackedGroup>& groups) {
@@ -61,11 +71,12 @@ std::size_t layerCount(const std::vector<PackedGroup>& groups) {
 
 std::string layerName(const PackedGroup& group, int page) {
   char text[64];
+  const char* kind = group.neutral ? " neutral" : "";
   if (group.psiCount == 1) {
-    std::snprintf(text, sizeof text, "psi %03zu page %d", group.firstPsi, page);
+    std::snprintf(text, sizeof text, "psi %03zu%s page %d", group.firstPsi, kind, page);
   } else {
-    std::snprintf(text, sizeof text, "psi %03zu-%03zu page %d", group.firstPsi, group.firstPsi + group.psiCount - 1,
-                  page);
+    std::snprintf(text, sizeof text, "psi %03zu-%03zu%s page %d", group.firstPsi, group.firstPsi + group.psiCount - 1,
+                  kind, page);
   }
   return text;
 }
@@ -81,11 +92,16 @@ void checkSize(const DirectionalPages& pages) {
 
 }  // namespace
 
-DirectionalPages packDirectional(const LightMaps& maps) {
-  const std::vector<std::vector<StoredMap>> byPsi = storedMapsByPsi(maps);
-  std::size_t psiPerGroup = 1;
-  std::vector<PackedGroup> groups = packGroups(byPsi, psiPerGroup);
-  while (layerCount(groups) > kMostLayers && psiPerGroup < byPsi.size()) groups = packGroups(byPsi, psiPerGroup *= 2);
+DirectionalPages packDirectional(const LightMaps& maps, bool neutralApart) {
+  const auto byPsi = storedMapsByPsi(maps, neutralApart ? Kind::coloured : Kind::all);
+  const auto neutral = neutralApart ? storedMapsByPsi(maps, Kind::neutral) : decltype(byPsi){};
+  std::vector<PackedGroup> groups;
+  for (std::size_t psiPerGroup = 1;; psiPerGroup *= 2) {
+    groups.clear();
+    packGroups(byPsi, psiPerGroup, false, groups);
+    packGroups(neutral, psiPerGroup, true, groups);
+    if (layerCount(groups) <= kMostLayers || psiPerGroup >= byPsi.size()) break;
+  }
 
   DirectionalPages pages;
   std::size_t members = 0;
@@ -98,6 +114,7 @@ DirectionalPages packDirectional(const LightMaps& maps) {
   for (const PackedGroup& group : groups) {
     const auto firstLayer = static_cast<std::int64_t>(pages.layers.size());
     for (int page = 0; page < group.packing.pageCount; ++page) pages.layers.push_back(layerName(group, page));
+    pages.neutral.resize(pages.layers.size(), group.neutral);
     for (std::size_t i = 0; i < group.maps.size(); ++i) {
       const Placement& at = group.packing.places[i];
       pages.places[group.maps[i].member] = at.x + pages.width * (at.y + pages.height * (firstLayer + at.page));

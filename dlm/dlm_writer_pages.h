@@ -14,7 +14,8 @@ namespace lucarne {
 std::vector<ExrLayer> irradianceLayers(const LightMaps& maps);
 
 /// Packs the stored directional maps, those of one ψ together, and tells where each goes; scale is left 1.
-DirectionalPages packDirectional(const LightMaps& maps);
+/// `neutralApart`: maps whose texels all have three equal components go to pages of their own.
+DirectionalPages packDirectional(const LightMaps& maps, bool neutralApart);
 
 /// In pages.format, divided by its scales.
 std::vector<ExrLayer> directionalLayers(const LightMaps& maps, const DirectionalPages& pages);

@@ -58,6 +58,26 @@ SideDrop chooseMaps(const LightMaps& maps, const SideMaps& side, double bound) {
   return drop;
 }
 
+/// Takes away the colour of maps that have next to none. Returns how many texels they have.
+std::uint64_t neutralise(LightMaps& maps, const SideMaps& side, double bound) {
+  const std::vector<double> inverse = inverseReference(maps, side);
+  std::uint64_t texels = 0;
+  for (const SideDirection& d : side.directions) {
+    if (!d.stored()) continue;
+    Rgb* const map = maps.directional.data() + d.first;
+    bool neutral = true;
+    for (std::size_t t = 0; t < inverse.size() && neutral; ++t) {
+      const Rgb off = map[t] - Rgb(luminance(map[t]));
+      const float most = std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)});
+      neutral = static_cast<double>(most) * inverse[t] <= bound;
+    }
+    if (!neutral) continue;
+    for (std::size_t t = 0; t < inverse.size(); ++t) map[t] = Rgb(luminance(map[t]));
+    texels += inverse.size();
+  }
+  return texels;
+}
+
 /// Moves the maps that stay together. They lie in the order of sides and members.
 void closeGaps(LightMaps& maps) {
   std::uint64_t next = 0;
@@ -93,6 +113,11 @@ DroppedMaps dropFaintMaps(LightMaps& maps, double bound) {
     dropped.lost = std::max(dropped.lost, drops[s].lost);
   }
   closeGaps(maps);
+  std::vector<std::uint64_t> neutral(maps.sides.size());
+  tbb::parallel_for(std::size_t{0}, neutral.size(), [&](std::size_t s) {
+    if (maps.sides[s].lit) neutral[s] = neutralise(maps, maps.sides[s], bound);
+  });
+  dropped.neutralTexels = std::accumulate(neutral.begin(), neutral.end(), std::uint64_t{0});
   return dropped;
 }
 

@@ -31,6 +31,7 @@ struct DirectionalPages {
   std::vector<std::int64_t> places;
   double scale = 1;  // lx = value in the file · scale, a power of two
   MapFormat format = MapFormat::half;
+  std::vector<bool> neutral;  // by layer: one channel, Y, of maps without colour. A reader sees it by the channels
   std::vector<float> mapScales;  // of ldr8: of every stored map, in order; see texel_codes.h
 };
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "base/image_file.h"
 #include "dlm/dlm_reader.h"
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
@@ -49,6 +50,31 @@ TEST(MapFormats, EightBitsKeepTheRootToHalfAStepBelowTheCut) {
             EXPECT_NEAR(std::sqrt(after.directional[i][c] / scale), std::sqrt(before.directional[i][c] / scale), 0.501f / 255);
       }
     EXPECT_EQ(stored, scales.scales.size());
+  }
+}
+
+TEST(MapFormats, MapsWithoutColourAreOneChannelAndReadAsTheyWere) {
+  BakedScene scene(14);
+  scene.builder.addMaterial(test::doubleSidedMaterial());
+  scene.builder.addQuad({0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0}, 0);
+  scene.addChart(0, {0, 1, 0}, 4, 4, 1, 1, 1);
+  scene.addSide(false, [](int, int) { return Rgb(1.f); });
+  scene.addDirection(2, [](int x, int y) { return Rgb(static_cast<float>(1 + x * y)); });
+  scene.addDirection(3, [](int x, int y) { return Rgb(static_cast<float>(1 + x), static_cast<float>(y), 0.f); });
+  scene.addDirection(5, [](int x, int) { return Rgb(static_cast<float>(x)); });
+  scene.setAtlas(8, 8);
+  for (const MapFormat format : {MapFormat::half, MapFormat::float32, MapFormat::rgb9e5, MapFormat::ldr8}) {
+    const TempFolder folder;
+    scene.write(folder / "room.dlm", {format, ExrCompression::none});
+    std::size_t neutral = 0;
+    for (const ExrLayer& layer : readExr(folder / "room.dlm" / "directional.exr"))
+      neutral += layer.channels.size() == 1 && layer.channels[0].name == "Y";
+    EXPECT_EQ(neutral, format == MapFormat::ldr8 ? 0u : 2u);
+    const LightMaps after = readDlm(folder / "room.dlm").maps;
+    ASSERT_EQ(after.directional.size(), scene.maps().directional.size());
+    if (format != MapFormat::ldr8) {
+      EXPECT_EQ(after.directional, scene.maps().directional);
+    }
   }
 }
 
