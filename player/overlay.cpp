@@ -31,6 +31,15 @@ void drawNumbers(const OverlayText& t) {
   ImGui::Text("exposure       %+.1f stops", t.exposureStops);
 }
 
+/// No wider than the numbers below it.
+void drawNote(const std::string& note) {
+  constexpr float kWidth = 290;
+  if (note.empty()) return;
+  ImGui::PushTextWrapPos(kWidth);
+  ImGui::TextUnformatted(note.c_str());
+  ImGui::PopTextWrapPos();
+}
+
 void drawHelp(bool open) {
   if (!open) {
     ImGui::TextDisabled("H: help");
@@ -83,7 +92,7 @@ void Overlay::layOut(const OverlayText& text) {
   ImGui::Begin("lucarne", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-  if (!text.note.empty()) ImGui::TextUnformatted(text.note.c_str());
+  drawNote(text.note);
   if (text.stats.directions > 0) {
     drawNumbers(text);
     drawHelp(text.help);

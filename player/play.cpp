@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -32,8 +34,9 @@ double secondsBetween(Clock::time_point a, Clock::time_point b) { return std::ch
 
 class Session {
  public:
-  Session(const std::filesystem::path& dlm, const PlayOptions& options)
+  Session(const std::filesystem::path& dlm, const PlayOptions& options, std::optional<WalkPath> path)
       : options_(options),
+        path_(std::move(path)),
         request_{dlm, options.camera, options.render.format, options.render.lobe},
         window_(options.render.width, options.render.height, options.title),
         overlay_(window_.handle()),
@@ -42,9 +45,6 @@ class Session {
         scale_(std::clamp(options.renderScale, 0.1, 1.0)),
         kind_(options.render.renderer),
         watch_(dlm) {
-    if (!options.replay.empty()) path_ = readWalkPath(options.replay);
-    for (const auto& output : {options.record, options.benchmark, options.screenshot})
-      if (!output.empty()) checkWritable(output);
     if (isBenchmark()) window_.setVsync(false);
     benchmark_.pathFps = options.fps;
     startLoading();
@@ -92,6 +92,8 @@ class Session {
     try {
       shown_ = loader->take();
       failure_.clear();
+      eye_ = {};  // other maps are exposed as they should be at once
+      sinceLoaded_ = 0;
     } catch (const Error& error) {
       if (!shown_) throw;
       failure_ = std::string("not reloaded: ") + error.what();
@@ -184,7 +186,7 @@ class Session {
       timer_.begin();
       shown_->renderer.draw({control_->camera()}, kind_, frame);
       timer_.end();
-      eye_.follow(display_, frame, frame_, step);
+      eye_.follow(display_, frame, sinceLoaded_++, step);
       display_.show(frame, eye_.exposure() * std::exp2(stops_), size.width, size.height);
       text = {smoothedStep_,   timer_.seconds(),
               kind_,           shown_->renderer.stats(),
@@ -252,8 +254,8 @@ class Session {
   }
 
   const PlayOptions& options_;
+  std::optional<WalkPath> path_;  // to be replayed
   SceneRequest request_;
-  std::optional<WalkPath> path_;
   Window window_;  // before all that needs its context
   DisplayPass display_;
   Overlay overlay_;
@@ -267,7 +269,7 @@ class Session {
   std::unique_ptr<WalkControl> control_;
   std::unique_ptr<FrameTarget> target_;
   EyeAdaptation eye_;
-  std::uint64_t frame_ = 0;
+  std::uint64_t frame_ = 0, sinceLoaded_ = 0;
   double seconds_ = 0, smoothedStep_ = 0, noteSeconds_ = 0;
   float stops_ = 0;
   bool help_ = false;
@@ -281,8 +283,13 @@ class Session {
 PlayReport play(const std::filesystem::path& dlm, const PlayOptions& options) {
   if (!options.benchmark.empty() && options.replay.empty())
     throw UsageError("--benchmark needs --replay F: the walk that is timed");
-  readManifest(dlm);  // what is no folder of light maps is told before a window opens
-  return Session(dlm, options).run();
+  // What cannot be is told before a window opens.
+  readManifest(dlm);
+  std::optional<WalkPath> path;
+  if (!options.replay.empty()) path = readWalkPath(options.replay);
+  for (const auto& output : {options.record, options.benchmark, options.screenshot})
+    if (!output.empty()) checkWritable(output);
+  return Session(dlm, options, std::move(path)).run();
 }
 
 }  // namespace lucarne

@@ -10,6 +10,7 @@ namespace lucarne {
 namespace {
 
 constexpr double kPacePerNotch = 1.25, kSlowestPace = 1. / 16, kFastestPace = 64;
+constexpr double kWalkedWithin = 0.3;  // metres between the eye of a walker and that of a path
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 }  // namespace
@@ -84,13 +85,16 @@ void WalkControl::replay(WalkPath path) {
   pathSeconds_ = 0;
 }
 
-/// The walker goes on from where the path is.
+/// The walker goes on from where the path is: on foot, or flying where the path was not walked.
 void WalkControl::leavePath() {
   if (!path_) return;
   const Camera camera = this->camera();
   camera_ = camera;
   path_.reset();
-  driver_.set(startAt(scene_->world, camera, driver_.state().flying));
+  WalkerState state = startAt(scene_->world, camera, driver_.state().flying);
+  if (length(state.eye() - scene_->world.fromLocal(camera.position)) > kWalkedWithin)
+    state = startAt(scene_->world, camera, true);
+  driver_.set(state);
 }
 
 WalkPath WalkControl::takeRecording() { return {kWalkTicks, camera_.yfov * kDegrees, driver_.takeRecording()}; }
@@ -101,6 +105,7 @@ void WalkControl::moveTo(std::shared_ptr<const WalkScene> scene) {
   state.feet += from.origin - to.origin;
   state.safe += from.origin - to.origin;
   camera_.position = to.toLocal(from.toWorld(camera_.position));
+  if (!state.flying && !scene->world.along(state.eye(), {0, -1, 0})) state = placed(scene->world, state, state.eye());
   driver_.enter(scene->world, state);
   scene_ = std::move(scene);
   cameraIndex_ = -1;

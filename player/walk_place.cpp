@@ -11,7 +11,7 @@ namespace {
 using namespace walk_body;
 
 constexpr double kSmallestScene = 2.5;  // metres across
-constexpr int kColumns = 1500, kMostLayers = 12;
+constexpr int kColumns = 1500, kGrid = 24, kMostLayers = 12;
 constexpr double kNearestRing = 0.05;  // metres
 constexpr double kOutOfSight = 4;      // so much farther counts a place behind a wall
 constexpr double kBackSide = 4;        // or on a roof that is the back of a ceiling
@@ -24,6 +24,13 @@ class Search {
   Search(const WalkWorld& world, Vec3d eye) : world_(world), body_(world), eye_(eye) {}
 
   void look() {
+    lookNear();
+    if (!found_) lookEverywhere();
+  }
+  const std::optional<WalkerState>& found() const { return found_; }
+
+ private:
+  void lookNear() {
     const Box& box = world_.bounds();
     const Vec3d away{std::max(std::abs(eye_.x - box.lo.x), std::abs(eye_.x - box.hi.x)), 0,
                      std::max(std::abs(eye_.z - box.lo.z), std::abs(eye_.z - box.hi.z))};
@@ -37,9 +44,17 @@ class Search {
       lookDown({x, box.hi.y + 1, z});
     }
   }
-  const std::optional<WalkerState>& found() const { return found_; }
+  /// A scene far off is a small part of a spiral.
+  void lookEverywhere() {
+    const Box& box = world_.bounds();
+    for (int i = 0; i < kGrid; ++i) {
+      for (int j = 0; j < kGrid; ++j) {
+        const double u = (i + 0.5) / kGrid, v = (j + 0.5) / kGrid;
+        lookDown({box.lo.x + u * box.extent().x, box.hi.y + 1, box.lo.z + v * box.extent().z});
+      }
+    }
+  }
 
- private:
   /// All floors of a column.
   void lookDown(Vec3d from) {
     for (int layer = 0; layer < kMostLayers; ++layer) {

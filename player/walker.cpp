@@ -134,10 +134,13 @@ void Walker::fall(const Footing& footing) {
     state_.grounded = state_.upSpeed < 0;
     state_.upSpeed = 0;
   }
-  if (body_.world().bounds().lo.y - kLostBelow > state_.feet.y) {
-    state_.feet = state_.safe;
-    state_.upSpeed = 0;
-  }
+  if (body_.world().bounds().lo.y - kLostBelow > state_.feet.y) comeBack();
+}
+
+void Walker::comeBack() {
+  state_.feet = state_.safe;
+  state_.upSpeed = 0;
+  if (!footingAt(body_.world(), state_.feet).floor) state_ = placed(body_.world(), state_, state_.eye());
 }
 
 /// False where something is in the way that the body cannot be pushed aside from.

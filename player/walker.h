@@ -54,6 +54,7 @@ class Walker {
   void stand(double floor);
   void fall(const Footing& footing);
   bool rise(double by);
+  void comeBack();
   void stretch(bool crouch);
 
   WalkBody body_;
