@@ -103,6 +103,19 @@ std::vector<Rgbd> addSet(const SideInput& s, bool gathered, const SideMaps& out,
   return irradiance;
 }
 
+/// lx of a unit.
+Scales scalesOf(const ResolveInput& in) {
+  const double metres = in.scene.frame.scale;
+  Scales scales;
+  if (in.photons > 0)
+    scales.photons =
+        in.emittedFlux / static_cast<double>(in.photons) / static_cast<double>(kFixedPointOne) / (metres * metres);
+  if (in.samples > 0)
+    scales.direct = directUnit(in.emittedFlux, in.layout, metres) / static_cast<double>(in.samples) /
+                    static_cast<double>(kFixedPointOne);
+  return scales;
+}
+
 /// All that is the same for every side.
 struct ResolveRun {
   const ResolveInput& in;
@@ -138,14 +151,17 @@ KernelBias chooseKernels(const ResolveRun& run, const TallySide& side, const Sid
   return bias;
 }
 
+std::span<const double> areaOf(const ResolveInput& in, const TallySide& side) {
+  return {in.layout.area.data() + in.layout.charts[side.chart].firstTexel, side.texelCount()};
+}
+
 void resolveSide(ResolveRun& run, std::size_t index) {
   const ResolveInput& in = run.in;
   LightMaps& maps = run.maps;
   const SideMaps& out = maps.sides[index];
   if (!out.lit) return;
   const TallySide& side = in.tallyLayout.sides[index];
-  const std::span<const double> area(in.layout.area.data() + in.layout.charts[side.chart].firstTexel,
-                                     side.texelCount());
+  const std::span<const double> area = areaOf(in, side);
   const SideContacts none;
   const SideContacts& contacts = in.contacts.empty() ? none : in.contacts[index];
   LevelResolver resolver(side.width, side.height, area, run.kernels, contacts);
@@ -191,21 +207,81 @@ LightMaps resolve(const ResolveInput& in, const KernelOptions& options, KernelBi
   maps.directionCount = in.directionCount;
   maps.charts = describeCharts(in);
   planMaps(in, maps);
-  const double metres = in.scene.frame.scale;
-  Scales scales;
-  if (in.photons > 0)
-    scales.photons =
-        in.emittedFlux / static_cast<double>(in.photons) / static_cast<double>(kFixedPointOne) / (metres * metres);
-  if (in.samples > 0)
-    scales.direct = directUnit(in.emittedFlux, in.layout, metres) / static_cast<double>(in.samples) /
-                    static_cast<double>(kFixedPointOne);
-  ResolveRun run{in, kernelLevels(options), scales, maps, std::vector<SideErrors>(maps.sides.size()),
+  ResolveRun run{in, kernelLevels(options), scalesOf(in), maps, std::vector<SideErrors>(maps.sides.size()),
                  std::vector<KernelBias>(maps.sides.size())};
   tbb::parallel_for(std::size_t{0}, maps.sides.size(), [&](std::size_t s) { resolveSide(run, s); });
   fillErrors(run.errors, maps);
   for (const KernelBias& b : run.biases)
     if (bias != nullptr) *bias += b;
   return maps;
+}
+
+namespace {
+
+/// Units of a set, all directions together.
+std::vector<std::int64_t> sumOfMaps(const ResolveInput& in, const Tallies& set, const TallySide& side) {
+  std::vector<std::int64_t> sum(kLightChannels * side.texelCount());
+  for (std::uint64_t k = 0; k < in.tallyLayout.membersOf(side).mapCount(); ++k) {
+    const auto units = mapUnits(set, side, k);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += units[i];
+  }
+  return sum;
+}
+
+/// What a side gives to the estimate: its flux, and its errors until the ratios of all sides are known.
+struct SideEstimate {
+  double flux = 0;
+  SideErrors errors;
+};
+
+/// With the kernel of each texel chosen as resolveSide() does.
+SideEstimate estimateSide(const ResolveRun& run, std::size_t index) {
+  const ResolveInput& in = run.in;
+  const TallySide& side = in.tallyLayout.sides[index];
+  const std::span<const double> area = areaOf(in, side);
+  const SideContacts none;
+  const SideContacts& contacts = in.contacts.empty() ? none : in.contacts[index];
+  LevelResolver resolver(side.width, side.height, area, run.kernels, contacts);
+  if (run.kernels.size() > 1) chooseKernels(run, side, contacts, area, resolver);
+  const SideInput s{in, side, resolver, run.usual(), contacts, run.scales};
+  std::vector<Rgbd> photons(side.texelCount()), direct(side.texelCount());
+  if (in.photons > 0) photons = resolver.filterRgb(sumOfMaps(in, in.tallies, side));
+  if (in.samples > 0) direct = resolver.filterMeans(sumOfMaps(in, *in.tallies.direct(), side), area);
+  SideEstimate estimate;
+  for (std::size_t t = 0; t < photons.size(); ++t) {
+    photons[t] = photons[t] * run.scales.photons;
+    estimate.flux += area[t] * luminance(photons[t] + direct[t] * run.scales.direct);
+  }
+  estimate.errors = sideErrors(s, photons);
+  return estimate;
+}
+
+}  // namespace
+
+double estimateRelativeError(const ResolveInput& in, const KernelOptions& options) {
+  LightMaps none;
+  const ResolveRun run{in, kernelLevels(options), scalesOf(in), none, {}, {}};
+  std::vector<SideEstimate> sides(in.tallyLayout.sides.size());
+  const std::vector<const Tallies*> sets = setsOf(in);
+  tbb::parallel_for(std::size_t{0}, sides.size(), [&](std::size_t s) {
+    const bool lit = std::any_of(sets.begin(), sets.end(), [&](const Tallies* set) {
+      return anyNonZero(statisticsOf(*set, in.tallyLayout.sides[s]));
+    });
+    if (lit) sides[s] = estimateSide(run, s);
+  });
+  ErrorRatios photons, direct;
+  double error = 0, flux = 0;
+  for (const SideEstimate& side : sides) {
+    photons += side.errors.photons.ratios;
+    direct += side.errors.direct.ratios;
+    flux += side.flux;
+  }
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const std::span<const double> area = areaOf(in, in.tallyLayout.sides[s]);
+    const std::vector<float> deviations = sides[s].errors.deviations(photons, direct);
+    for (std::size_t t = 0; t < deviations.size(); ++t) error += area[t] * static_cast<double>(deviations[t]);
+  }
+  return flux > 0 ? error / flux : 0;
 }
 
 double estimatedRelativeError(const LightMaps& maps, const TexelLayout& layout) {

@@ -48,4 +48,8 @@ LightMaps resolve(const ResolveInput& input, const KernelOptions& kernel, Kernel
 /// Flux-weighted estimated relative error of the irradiance: Σ area·σ / Σ area·E over all lit texels.
 double estimatedRelativeError(const LightMaps& maps, const TexelLayout& layout);
 
+/// The same of the maps that resolve() would make, but for rounding, without making them: in a fraction of the time, and
+/// with ten bytes a texel. The same bits for the same tallies.
+double estimateRelativeError(const ResolveInput& input, const KernelOptions& kernel);
+
 }  // namespace lucarne
