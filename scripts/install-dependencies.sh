@@ -10,6 +10,7 @@ packages=(
   libglfw3-dev libglm-dev libepoxy-dev libimgui-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
   libopenmpi-dev openmpi-bin
   libgtest-dev libgmock-dev libbenchmark-dev
+  xvfb xdotool
 )
 
 is_installed() {
