@@ -1,19 +1,20 @@
 #include "app/bake.h"
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "app/bake_environment.h"
 #include "app/bake_identity.h"
+#include "app/bake_needs.h"
 #include "app/bake_outputs.h"
 #include "app/bake_ranks.h"
 #include "app/bake_report.h"
+#include "app/bake_rescue.h"
 #include "app/bake_resume.h"
+#include "app/bake_trace.h"
 #include "app/load_scene.h"
-#include "app/trace_variant.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "base/memory.h"
-#include "base/progress.h"
 #include "base/system.h"
 #include "base/units.h"
 #include "distributed/bake_job.h"
@@ -24,15 +25,14 @@
 namespace lucarne {
 namespace {
 
-/// Tallies and maps exist together while resolving, in one process. `processes` of them share the machine's memory.
-void checkMemory(const BakePlan& plan, const BakeOptions& options, int processes) {
-  const std::uint64_t needed =
-      tallyBytes(plan, options) * static_cast<std::uint64_t>(processes) + memoryOfMaps(plan.tallies.bytes());
-  const std::uint64_t available = availableMemoryBytes();
-  if (needed <= available) return;
-  throw Error(ExitCode::outOfResource, "light maps need " + formatBytes(needed) + " and " + formatBytes(available) +
-                                           " are free: lower --density, --texels or --directions" +
-                                           (processes > 1 ? ", or start fewer ranks with more --threads" : ""));
+/// Predicted, told, and refused where it is too much. `processes` share the machine's memory.
+void checkMemory(const Scene& scene, const BakePlan& plan, BakeOptions& options, int processes, bool tell) {
+  const std::uint64_t allowed = allowedMemory(options, processes);
+  const MemoryNeeds needs = requireMemory(options, scene, plan, MemorySoFar::now(), allowed);
+  if (!tell) return;
+  const bool given = options.memoryBytes && allowed == *options.memoryBytes;
+  logInfo("memory: " + formatBytes(needs.peak()) + " expected at the most, of " + formatBytes(allowed) +
+          (given ? " allowed" : " free"));
 }
 
 void warnAbout(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& options) {
@@ -58,7 +58,7 @@ PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const
   header.identity = {hashBytes(packed.glb), traceSettings(options), resolveSettings(options), layoutHash(plan),
                      scene.emitters().totalFlux()};
   header.makers = {{buildName(), scene.rayCaster().description(), cpuName(), probeRays(scene)}};
-  header.planned = {options.photons, options.part ? options.part->n : 0, 0};
+  header.planned = {options.photons == kUnlimitedPhotons ? 0 : options.photons, options.part ? options.part->n : 0, 0};
   if (gathersDirect(options)) {
     header.planned.samples = options.directSamples;
     header.direct.emplace();
@@ -66,49 +66,25 @@ PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const
   return header;
 }
 
-/// Gathers and traces what the state lacks. A scene without light is at once as good as traced, and so are photons that
-/// would store nothing.
-void trace(MpiJob* mpi, const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene,
-           const BakePlan& plan, BakeState& state, CheckpointFolder& folder) {
-  const IndexRange range = photonsOf(options);
-  const bool root = mpi == nullptr || mpi->rank() == 0;
-  if (scene.emitters().empty()) {
-    state.header.photons = IndexSet(range);
-    if (state.header.direct) state.header.direct->samples = IndexSet(samplesOf(options));
-    if (root && options.checkpointSeconds > 0) folder.save(state.header, packed.glb, state.tallies);
-    return;
-  }
-  if (root) state.variantSpeedup = traceVariantSpeedup(scene);
-  const TexelMap map(packed.scene, plan.charts, plan.layout, plan.tallies);
-  if (!tracesPhotons(options)) state.header.photons = IndexSet(range);
-  std::optional<DirectGather> gather;
-  if (gathersDirect(options)) {
-    gather.emplace(GatherScene{scene, plan.charts, plan.layout, plan.tallies, plan.directions},
-                   PhotonSeed{options.seed, options.sampler});
-    if (root) logInfo("gathering direct light: samples " + toText(IndexSet(samplesOf(options))) + " of every texel");
-  }
-  ProgressLine progress("baking", range.size(), options.quiet || !root);
-  progress.startFrom(state.header.photons.count(), state.header.ledger.rays);
-  const auto show = [&progress](const RunProgress& p) { progress.update(p.photons, p.rays); };
-  const BakeJob job{{scene, map, plan.tallies, plan.directions},
-                    runOptions(options),
-                    range,
-                    packed.glb,
-                    options.checkpointSeconds,
-                    writesPart(options) || options.keepPart,
-                    show,
-                    gather ? std::optional(DirectJob{*gather, samplesOf(options)}) : std::nullopt};
-  if (mpi != nullptr) {
-    mpi->run(job, state, &folder);
+/// Of a bake that was told to stop. All ranks know, and rank 0 tells it.
+[[noreturn]] void throwInterrupted(const BakeSetup& setup, const BakeState& state, const JobResult& result,
+                                   CheckpointFolder& folder) {
+  std::string line = "interrupted: ";
+  if (result.saved) {
+    line += howToGoOn(state, folder.path().string());
+  } else if (setup.options.checkpointSeconds == 0) {
+    line += "nothing is saved, since --checkpoint is 0";
   } else {
-    runJob(job, state, &folder);
+    line += rescueState(setup, state, folder);
   }
-  progress.finish();
+  throw AgreedError(ExitCode::interrupted, line);
 }
 
 /// The bake of one process, or of all ranks together: rank 0 alone reads, saves, writes and tells. Steps that can fail
 /// on one rank while the others wait are agreed on. Returns the report on rank 0.
-nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
+nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options, const JobControl& control) {
+  const auto start = std::chrono::steady_clock::now();
+  control.mayEndAtOnce("interrupted before the first photon; nothing is lost");
   const bool root = mpi == nullptr || mpi->rank() == 0;
   const auto agree = [mpi](const std::function<void()>& f) { mpi == nullptr ? f() : mpi->agree(f); };
   PackedScene packed;
@@ -136,7 +112,7 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
     settleDirections(packed.scene, options);
     prepareEmission(*scene, options);
     plan.emplace(makePlan(packed.scene, options));
-    checkMemory(*plan, options, mpi == nullptr ? 1 : mpi->localSize());
+    checkMemory(packed.scene, *plan, options, mpi == nullptr ? 1 : mpi->localSize(), root);
     if (root) warnAbout(*scene, *plan, options);
     state.emplace(BakeState{headerOf(options, packed, *scene, *plan), Tallies(plan->tallies, tallySets(options))});
   });
@@ -146,25 +122,31 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options) {
   agree([&] {
     if (!root) return;
     finished = finishedBefore(options, state->header);
-    if (!finished) takeUp(options, folder, *state);
+    if (finished) return;
+    requireDisk(options, predictDisk(options, packed.scene, *plan, packed.glb.size()), options.resume ? folder.bytes() : 0);
+    takeUp(options, folder, *state);
   });
   if (mpi != nullptr && mpi->gather(finished ? "finished" : "")[0] == "finished")
     return root ? writeReport(options, *finished) : nullptr;
   if (finished) return writeReport(options, *finished);
-  trace(mpi, options, packed, *scene, *plan, *state, folder);
-  return root ? finish(options, packed, *plan, *state, folder) : nullptr;
+  control.mayEndAtOnce("");
+  const BakeSetup setup{mpi, options, packed, *scene, *plan, control, start};
+  const JobResult result = traceBake(setup, *state, folder);
+  if (!root) return nullptr;
+  if (result.end == JobEnd::interrupted) throwInterrupted(setup, *state, result, folder);
+  return finish(setup, *state, folder, result);
 }
 
 }  // namespace
 
-nlohmann::json bake(const BakeOptions& options) {
+nlohmann::json bake(const BakeOptions& options, const JobControl& control) {
   const std::unique_ptr<MpiJob> mpi = MpiJob::join();
-  if (mpi == nullptr) return bakeWith(nullptr, options);
+  if (mpi == nullptr) return bakeWith(nullptr, options, control);
   if (mpi->rank() != 0) setQuiet(true);
   ExitCode code = ExitCode::failed;
   std::string message;
   try {
-    return bakeWith(mpi.get(), options);
+    return bakeWith(mpi.get(), options, control);
   } catch (const AgreedError&) {
     if (mpi->rank() == 0) throw;
     return nullptr;

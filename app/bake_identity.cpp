@@ -67,7 +67,7 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
   o.kernel.width = r.at("kernel_width").number();
   if (r.has("drop_error")) o.dropError = r.at("drop_error").number();
   if (r.has("seams")) o.seams = choiceAt<SeamMode>(r.at("seams"), kSeamModes);
-  o.photons = std::max<std::uint64_t>(1, header.planned.photons);
+  o.photons = std::max<std::uint64_t>(1, header.planned.photons > 0 ? header.planned.photons : header.photons.end());
   if (traceSettings(o) != header.identity.settings) s.refuse("has settings that this program does not know");
   if (resolveSettings(o) != header.identity.resolve) r.refuse("has kernel settings that this program does not know");
   checkSettings(o);

@@ -14,6 +14,15 @@ namespace lucarne {
 
 namespace {
 
+void checkStopRules(const BakeOptions& o) {
+  if (o.timeLimit && !(*o.timeLimit > 0 && std::isfinite(*o.timeLimit))) throw UsageError("--time must be more than 0 s");
+  if (!(o.targetError >= 0 && o.targetError < 1)) throw UsageError("--target-error must be more than 0 and less than 100 %");
+  if (o.targetError == 0 && !o.timeLimit) return;
+  if (!tracesPhotons(o)) throw UsageError("--time and --target-error end the tracing of photons, and all light is gathered here: choose --direct-samples");
+  if (o.targetError > 0 && (o.part || o.photonRange)) throw UsageError("--target-error is judged on the whole bake: it cannot be given with --part or --photon-range");
+  if (o.part && o.photons == kUnlimitedPhotons) throw UsageError("--part cuts a known number of photons: give --photons, too");
+}
+
 void checkPiece(const BakeOptions& o) {
   if (o.part && o.photonRange) throw UsageError("--part and --photon-range cannot be given together");
   if (o.part && (o.part->n < 1 || o.part->k < 1 || o.part->k > o.part->n)) throw UsageError("--part must be K/N with K from 1 to N");
@@ -46,6 +55,7 @@ void checkFormat(const DlmFormat& format) {
 
 void checkMachine(const BakeOptions& o) {
   checkFormat(o.format);
+  if (o.memoryBytes && *o.memoryBytes == 0) throw UsageError("--memory must be more than 0");
   if (o.threads < 0 || o.threads > 1024) throw UsageError("--threads must be 0 (all) to 1024");
   // Embree passes over names that it does not know.
   constexpr std::array<std::string_view, 6> kSets = {"", "sse2", "sse4.2", "avx", "avx2", "avx512"};
@@ -58,11 +68,18 @@ void check(const BakeOptions& o) {
   if (o.output.empty()) throw UsageError("-o OUT.dlm is missing");
   if (!(o.checkpointSeconds >= 0) || !std::isfinite(o.checkpointSeconds)) throw UsageError("--checkpoint must be a time, or 0 for none");
   checkPiece(o);
+  checkStopRules(o);
 }
 
 bool writesPart(const BakeOptions& o) { return o.part || o.photonRange || o.output.extension() == ".part"; }
 
 std::filesystem::path partPath(const BakeOptions& o) { return std::filesystem::path(o.output).replace_extension(".part"); }
+
+std::filesystem::path previewPath(const BakeOptions& o) {
+  std::filesystem::path place = o.output;
+  if (!place.has_filename()) place = place.parent_path();  // "room.dlm/"
+  return place.replace_extension(".preview.dlm");
+}
 
 std::filesystem::path checkpointPath(const BakeOptions& o) {
   std::filesystem::path place = o.output;

@@ -30,10 +30,18 @@ enum class ChartMode : std::uint8_t { automatic, grow };
 /// What becomes of the jumps between charts that continue each other (seam_fit.h).
 enum class SeamMode : std::uint8_t { fit, keep };
 
+/// How a bake shows how far it is: a line for people, or JSON for programs.
+enum class ProgressStyle : std::uint8_t { line, json };
+
+/// `photons` of a bake that something else ends.
+inline constexpr std::uint64_t kUnlimitedPhotons = std::uint64_t{1} << 60;
+
 struct BakeOptions {
   std::optional<std::filesystem::path> scene;  // none: the built-in room
   std::filesystem::path output;                // NAME.dlm, or NAME.part
-  std::uint64_t photons = 20'000'000;          // of the whole bake
+  std::uint64_t photons = 20'000'000;          // of the whole bake, at most
+  std::optional<double> timeLimit;             // seconds: this run's, and what earlier ones traced
+  double targetError = 0;                      // estimated relative error at which the bake ends; 0: none
   std::optional<PartNumber> part;              // bake one of n parts,
   std::optional<IndexRange> photonRange;       // or these photons; never both
   int directions = 14;
@@ -57,6 +65,8 @@ struct BakeOptions {
   // Not options: found while loading, since photons depend on them. Empty: none.
   std::string environmentHash, guideHash;
   int threads = 0;                 // of each process; 0: all
+  std::optional<std::uint64_t> memoryBytes;  // that a process may take; none: what is free
+  bool ownTallies = true;          // threads may have tallies of their own: not an option, off where memory is short
   int ranks = 1;                   // processes that bake together: as the MPI launcher says, not an option
   double checkpointSeconds = 300;  // 0: no states are saved
   bool resume = false;             // go on from a saved state where there is one
@@ -65,6 +75,7 @@ struct BakeOptions {
   DlmFormat format;
   std::string isa;  // Embree's instruction set; empty: avx2 where the processor has it
   bool quiet = false;
+  ProgressStyle progress = ProgressStyle::line;
 };
 
 /// UsageError naming the option that is out of range.
@@ -79,6 +90,8 @@ void checkMachine(const BakeOptions& options);
 bool writesPart(const BakeOptions& options);
 /// NAME.part of NAME.dlm.
 std::filesystem::path partPath(const BakeOptions& options);
+/// NAME.preview.dlm of NAME.dlm.
+std::filesystem::path previewPath(const BakeOptions& options);
 /// NAME.checkpoint of NAME.dlm; beside what the name leads to when it is a link.
 std::filesystem::path checkpointPath(const BakeOptions& options);
 /// The photons of this piece of the bake.

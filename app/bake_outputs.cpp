@@ -1,6 +1,7 @@
 #include "app/bake_outputs.h"
 
 #include "app/bake_report.h"
+#include "app/bake_rescue.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/files.h"
@@ -11,10 +12,10 @@
 namespace lucarne {
 namespace {
 
-/// The states hold the end of the bake unless they were turned off: then they are written now.
+/// The states hold the end of the bake unless they were turned off or the disk failed: then it is written now.
 void publishPart(const BakeOptions& options, const PackedScene& packed, const BakeState& state,
-                 CheckpointFolder& folder) {
-  if (options.checkpointSeconds > 0) {
+                 CheckpointFolder& folder, bool saved) {
+  if (saved) {
     folder.publish(partPath(options));
   } else {
     writePart(partPath(options), state.header, packed.glb, state.tallies);
@@ -55,26 +56,79 @@ void checkOutputs(const BakeOptions& options) {
   if (options.report) checkWritable(*options.report);
 }
 
-nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, const BakePlan& plan, BakeState& state,
-                      CheckpointFolder& folder) {
-  PartHeader& header = state.header;
+nlohmann::json writeMaps(const BakeSetup& setup, const BakeState& state, const std::filesystem::path& path,
+                         JobEnd end) {
+  const BakeOptions& options = setup.options;
+  const PackedScene& packed = setup.packed;
+  const BakePlan& plan = setup.plan;
+  checkMapsOutput(path);
+  PartHeader header = state.header;
   header.content = state.tallies.contentHash();
-  std::optional<Baked> baked;
-  const bool maps = !writesPart(options);
-  if (maps || options.report) {
-    baked = resolveBake(packed.scene, plan, options, header, state.tallies);
+  const Baked baked = resolveBake(packed.scene, plan, options, header, state.tallies, &setup.scene.rayCaster());
+  nlohmann::json report = makeReport({options, packed.scene, plan, header, &baked});
+  report["ended_by"] = nameOf(end);
+  removeTemporaries(resolveTarget(path));
+  writeDlm(path, packed.scene, baked.uv, baked.maps, provenanceOf(report), options.format);
+  return report;
+}
+
+namespace {
+
+/// The report of all but the outputs, which are written.
+nlohmann::json writeOutputs(const BakeSetup& setup, const BakeState& state, CheckpointFolder& folder,
+                            const JobResult& result) {
+  const BakeOptions& options = setup.options;
+  nlohmann::json report;
+  if (!writesPart(options)) {
+    report = writeMaps(setup, state, options.output, result.end);
+  } else if (options.report) {
+    const Baked baked =
+        resolveBake(setup.packed.scene, setup.plan, options, state.header, state.tallies, &setup.scene.rayCaster());
+    report = makeReport({options, setup.packed.scene, setup.plan, state.header, &baked});
+  } else {
+    report = makeReport({options, setup.packed.scene, setup.plan, state.header, nullptr});
   }
-  nlohmann::json report = makeReport({options, packed.scene, plan, header, baked ? &*baked : nullptr});
-  if (maps) {
-    removeTemporaries(resolveTarget(options.output));
-    writeDlm(options.output, packed.scene, baked->uv, baked->maps, provenanceOf(report), options.format);
+  report["ended_by"] = nameOf(result.end);
+  setup.control.mayEndAtOnce("");
+  if (writesPart(options) || options.keepPart) publishPart(options, setup.packed, state, folder, result.saved);
+  return report;
+}
+
+/// A full disk gets a second try without the older of the saved states.
+nlohmann::json writeOutputsOnFullDisk(const BakeSetup& setup, const BakeState& state, CheckpointFolder& folder,
+                                      const JobResult& result) {
+  try {
+    return writeOutputs(setup, state, folder, result);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::outOfResource || !result.saved) throw;
+    folder.keepNewest();
+    return writeOutputs(setup, state, folder, result);
   }
-  if (!maps || options.keepPart) publishPart(options, packed, state, folder);
+}
+
+}  // namespace
+
+nlohmann::json finish(const BakeSetup& setup, BakeState& state, CheckpointFolder& folder, const JobResult& result) {
+  state.header.content = state.tallies.contentHash();
+  const std::string saved = howToGoOn(state, folder.path().string());
+  if (result.saved) setup.control.mayEndAtOnce("interrupted while the result was written; all " + saved);
+  const auto fail = [&](ExitCode code, const std::string& what) {
+    setup.control.mayEndAtOnce("");
+    return Error(code, what + "; " + (result.saved ? "all " + saved : rescueState(setup, state, folder)));
+  };
+  nlohmann::json report;
+  try {
+    report = writeOutputsOnFullDisk(setup, state, folder, result);
+  } catch (const Error& error) {
+    throw fail(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    throw fail(ExitCode::outOfResource, "not enough memory to make the light maps");
+  }
   folder.remove();
   report["trace_variant_speedup"] = state.variantSpeedup;
   report["checkpoints"] = state.checkpoints;
   report["checkpoint_seconds"] = state.checkpointSeconds;
-  return writeReport(options, report);
+  return writeReport(setup.options, report);
 }
 
 nlohmann::json writeReport(const BakeOptions& options, nlohmann::json report) {

@@ -4,9 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/bake_plan.h"
+#include "app/bake_setup.h"
 #include "distributed/bake_job.h"
-#include "tracer/scene/gltf_packer.h"
 
 namespace lucarne {
 
@@ -20,9 +19,12 @@ void checkMapsOutput(const std::filesystem::path& path);
 /// that a bake of these options did not make.
 void checkOutputs(const BakeOptions& options);
 
+/// Light maps of what the state holds, at `path`. Returns their report.
+nlohmann::json writeMaps(const BakeSetup& setup, const BakeState& state, const std::filesystem::path& path,
+                         JobEnd end = JobEnd::interrupted);
+
 /// Writes everything the options ask for and removes the saved states. Returns the report.
-nlohmann::json finish(const BakeOptions& options, const PackedScene& packed, const BakePlan& plan, BakeState& state,
-                      CheckpointFolder& folder);
+nlohmann::json finish(const BakeSetup& setup, BakeState& state, CheckpointFolder& folder, const JobResult& result);
 
 /// Adds the peak of memory and writes the report where the options say so; returns it.
 nlohmann::json writeReport(const BakeOptions& options, nlohmann::json report);

@@ -38,7 +38,7 @@ std::string droppedText(const DroppedMaps& d, double bound) {
 nlohmann::json settingsToJson(const BakeOptions& o, const BakePlan& plan) {
   nlohmann::json settings = traceSettings(o);
   settings.update(resolveSettings(o));
-  settings["photons"] = o.photons;
+  settings.update(stopSettings(o));
   if (gathersDirect(o)) settings["direct_samples"] = o.directSamples;
   settings["texels_per_metre_used"] = plan.layout.texelsPerMetre;
   settings["seams"] = seamsName(o);
@@ -69,6 +69,13 @@ nlohmann::json seamsToJson(const SeamReport& r, const BakeOptions& o) {
 double perSecond(std::uint64_t count, double seconds) { return seconds > 0 ? static_cast<double>(count) / seconds : 0; }
 
 }  // namespace
+
+nlohmann::json stopSettings(const BakeOptions& o) {
+  nlohmann::json settings = {{"photons", o.photons == kUnlimitedPhotons ? nlohmann::json() : nlohmann::json(o.photons)}};
+  if (o.timeLimit) settings["time_seconds"] = *o.timeLimit;
+  if (o.targetError > 0) settings["target_error"] = o.targetError;
+  return settings;
+}
 
 nlohmann::json formatSettings(const DlmFormat& format) {
   nlohmann::json settings = {{"format", nameOf(format.directional)}};

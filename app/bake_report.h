@@ -28,6 +28,9 @@ inline constexpr std::array kRunKeys = {"seconds", "photons_per_second", "rays_p
 /// Nothing that differs from run to run of the same bake, on one machine or on many.
 nlohmann::json provenanceOf(nlohmann::json report);
 
+/// What ends the bake: `photons` (null: unlimited), and where they are given `time_seconds` and `target_error`.
+nlohmann::json stopSettings(const BakeOptions& options);
+
 /// `format`, and `k_max` where that means anything.
 nlohmann::json formatSettings(const DlmFormat& format);
 

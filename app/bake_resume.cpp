@@ -51,20 +51,32 @@ nlohmann::json sampleRanges(const nlohmann::json& manifest) {
   return direct.is_object() ? direct.value("sample_ranges", nlohmann::json()) : nlohmann::json();
 }
 
+/// Whether the photons are those that the options ask for: all, or a beginning that a rule of theirs ended.
+bool isEnded(const nlohmann::json& manifest, const BakeOptions& options) {
+  const IndexRange range = photonsOf(options);
+  const nlohmann::json ranges = manifest.value("photon_ranges", nlohmann::json());
+  if (ranges == nlohmann::json::array({{range.begin, range.end}})) return true;
+  const nlohmann::json end = manifest.value("ended_by", nlohmann::json());
+  const bool byRule = (end == nameOf(JobEnd::time) && options.timeLimit) ||
+                      (end == nameOf(JobEnd::targetError) && options.targetError > 0);
+  return byRule && ranges.is_array() && ranges.size() == 1 && ranges[0].is_array() && ranges[0].size() == 2 &&
+         ranges[0][0] == range.begin;
+}
+
 bool isOf(const nlohmann::json& manifest, const BakeOptions& options, const PartHeader& header) {
   const nlohmann::json settings = manifest.value("settings", nlohmann::json::object());
   if (!settings.is_object()) return false;
   nlohmann::json wanted = resolveSettings(options);
   wanted["seams"] = seamsName(options);
   wanted.update(formatSettings(options.format));
-  wanted["photons"] = options.photons;
+  wanted.update(stopSettings(options));
   if (gathersDirect(options)) wanted["direct_samples"] = options.directSamples;
   for (const auto& [key, value] : wanted.items())
     if (settings.value(key, nlohmann::json()) != value) return false;
-  const IndexRange range = photonsOf(options);
+  if (settings.contains("time_seconds") != options.timeLimit.has_value()) return false;
+  if (settings.contains("target_error") != (options.targetError > 0)) return false;
   return manifest.value("scene_hash", "") == header.identity.scene.hex() &&
-         manifest.value("settings_hash", "") == header.identity.settingsHash().hex() &&
-         manifest.value("photon_ranges", nlohmann::json()) == nlohmann::json::array({{range.begin, range.end}}) &&
+         manifest.value("settings_hash", "") == header.identity.settingsHash().hex() && isEnded(manifest, options) &&
          (!header.direct || sampleRanges(manifest) == toJson(IndexSet(samplesOf(options))));
 }
 

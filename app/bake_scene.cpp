@@ -27,15 +27,16 @@ BakePlan makePlan(const Scene& scene, const BakeOptions& options, std::uint64_t 
 }
 
 Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, const PartHeader& header,
-                  const Tallies& tallies) {
+                  const Tallies& tallies, const RayCaster* caster) {
   Baked baked;
   baked.ledger = header.ledger;
   if (header.direct) baked.direct = *header.direct;
   baked.emittedFlux = header.identity.emittedFlux;
   baked.contentHash = tallies.contentHash();
-  const RayCaster caster(scene, {options.isa, true});
+  std::optional<RayCaster> own;
+  if (caster == nullptr) caster = &own.emplace(scene, RayCasterOptions{options.isa, true});
   baked.contacts =
-      findContacts(scene, plan.charts, plan.layout, plan.tallies, caster, makeKernel(options.kernel).radius);
+      findContacts(scene, plan.charts, plan.layout, plan.tallies, *caster, makeKernel(options.kernel).radius);
   baked.maps = resolve({scene, plan.charts, plan.layout, plan.tallies, tallies, options.directions, baked.emittedFlux,
                         header.ledger.photons, baked.direct.samples.count(), baked.direct.samples.countOdd(),
                         baked.contacts},
@@ -80,6 +81,7 @@ PhotonRunOptions runOptions(const BakeOptions& options) {
   PhotonRunOptions run;
   run.seed = {options.seed, options.sampler};
   run.threads = threadCount(options);
+  if (!options.ownTallies) run.privateTallyBytes = 0;
   run.part = gathersDirect(options) ? LightPart::indirect : options.light;
   return run;
 }

@@ -35,9 +35,9 @@ Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOption
                 const std::function<bool(const RunProgress&)>& progress);
 
 /// Maps of the tallies that `header` is of (no photons, no samples: black): what resolving, the layout and the kernel
-/// of `options` decide. Fills in all but the seconds.
+/// of `options` decide. Fills in all but the seconds. `caster`: of the scene, where there is one already.
 Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, const PartHeader& header,
-                  const Tallies& tallies);
+                  const Tallies& tallies, const RayCaster* caster = nullptr);
 
 /// Where the options leave it to the scene: how many directions.
 void settleDirections(const Scene& scene, BakeOptions& options);

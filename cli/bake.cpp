@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "cli/choices.h"
 #include "cli/commands.h"
+#include "cli/interrupts.h"
 #include "cli/layout_options.h"
 
 namespace lucarne {
@@ -16,7 +17,7 @@ namespace {
 /// Numbers arrive as text, so that 20M and 1e9 work and nonsense is refused in our words.
 struct BakeTexts {
   LayoutTexts layout;
-  std::string scene, environment, report, seed = "0", part, photonRange, checkpoint = "5m";
+  std::string scene, environment, report, seed = "0", part, photonRange, checkpoint = "5m", time, targetError, memory;
   std::optional<double> kernelWidth;
   std::string dropError = "0%";
 };
@@ -40,6 +41,16 @@ void finishPiece(BakeOptions& options, const BakeTexts& texts, bool photonsGiven
   if (!photonsGiven) options.photons = std::max<std::uint64_t>(1, end);
 }
 
+/// With another end in sight photons have none but what is typed.
+void finishStopRules(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
+  if (!texts.time.empty()) options.timeLimit = parseDuration("--time", texts.time);
+  if (!texts.targetError.empty()) {
+    options.targetError = parsePercentage("--target-error", texts.targetError);
+    if (options.targetError == 0) throw UsageError("--target-error must be more than 0");
+  }
+  if (!photonsGiven && (options.timeLimit || options.targetError > 0)) options.photons = kUnlimitedPhotons;
+}
+
 void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
   if (!texts.scene.empty()) options.scene = texts.scene;
   finishSky(options, texts.environment);
@@ -49,11 +60,19 @@ void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
   options.kernel.width = texts.kernelWidth.value_or(defaultKernelWidth(options.kernel.shape));
   options.dropError = parsePercentage("--drop-error", texts.dropError);
   options.checkpointSeconds = texts.checkpoint == "0" ? 0 : parseDuration("--checkpoint", texts.checkpoint);
+  if (!texts.memory.empty()) options.memoryBytes = parseBytes("--memory", texts.memory);
+  finishStopRules(options, texts, photonsGiven);
   finishPiece(options, texts, photonsGiven);
 }
 
 void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   addLayoutOptions(cmd, o, texts.layout);
+  cmd.add_option("--time", texts.time,
+                 "end after so long (8h, 90m), the time that earlier runs traced counted in; no limit of photons then "
+                 "unless --photons is given");
+  cmd.add_option("--target-error", texts.targetError,
+                 "end when the estimated relative error is so small (2%); no limit of photons then unless --photons is "
+                 "given");
   addChoice<KernelShape>(cmd, "--kernel", o.kernel.shape, kernelShapes(), "pyramid", kKernelHelp);
   cmd.add_option("--kernel-width", texts.kernelWidth,
                  "distance in texels at which the kernel ends: wider is smoother and blurrier; of adaptive the widest")
@@ -83,10 +102,15 @@ void addPieces(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
 
 void addRunning(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
   addMachineOptions(cmd, o);
+  cmd.add_option("--memory", texts.memory,
+                 "16G: no process takes more; a bake that would is refused and told what would fit. Default: what is free");
   cmd.add_option("--report", texts.report,
                  "write what happened to a JSON file: rates, energy ledger, errors, what was left out");
   cmd.add_option("--isa", o.isa,
                  "Embree's instruction set (avx512, avx2, sse4.2); bakes to be compared bit by bit need the same");
+  addChoice<ProgressStyle>(
+      cmd, "--progress", o.progress, {{"line", ProgressStyle::line}, {"json", ProgressStyle::json}}, "line",
+      "line: one live line on a terminal, a line a minute in a log; json: an object a line on stdout, one a second");
   cmd.add_flag("--quiet", o.quiet, "print errors only");
 }
 
@@ -96,6 +120,10 @@ void tell(const BakeOptions& options, const nlohmann::json& report) {
                      " photons in " + formatDuration(report["seconds"].get<double>());
   if (report.contains("estimated_relative_error"))
     text += ", estimated error " + formatPercent(report["estimated_relative_error"].get<double>());
+  const std::string end = report.value("ended_by", "photons");
+  if (end == "time") text += "; the time was up";
+  if (end == "target_error") text += "; the target is reached";
+  if (end == "tallies_full") text += "; the tallies hold no more: bake the rest in parts with light maps of their own";
   logInfo(text);
 }
 
@@ -119,7 +147,8 @@ void addBake(CLI::App& app, Action& action) {
     action = [options, texts, cmd] {
       finish(*options, *texts, cmd->count("--photons") > 0);
       setQuiet(options->quiet);
-      const nlohmann::json report = bake(*options);
+      Interrupts interrupts;
+      const nlohmann::json report = bake(*options, interrupts.control());
       if (!report.is_null()) tell(*options, report);  // null: not the first of MPI ranks
     };
   });

@@ -6,6 +6,7 @@
 
 #include "distributed/checkpoint.h"
 #include "distributed/direct_run.h"
+#include "distributed/job_control.h"
 #include "distributed/photon_run.h"
 
 namespace lucarne {
@@ -16,15 +17,32 @@ struct DirectJob {
   IndexRange range;  // of samples in all, those of earlier runs included
 };
 
+struct BakeState;
+
+/// How far a job is, earlier runs included.
+struct JobProgress : RunProgress {
+  std::uint64_t samples = 0;    // of direct light
+  double untilCheckpoint = -1;  // seconds; negative: none is to come
+};
+
 struct BakeJob {
   PhotonTask task;
   PhotonRunOptions run;
   IndexRange range;                     // of photons in all, those of earlier runs included
   std::span<const std::uint8_t> scene;  // packed, as states carry it
   double checkpointSeconds = 300;       // 0: no states
-  bool lastStateIsWanted = false;  // for itself; else it only guards what follows, and failing to save it is no error
-  std::function<void(const RunProgress&)> progress;  // photons and rays so far, earlier runs included
+  std::function<void(const JobProgress&)> progress;
   std::optional<DirectJob> direct = {};
+  StopRules rules = {};
+  JobControl control = {};
+  std::function<void(BakeState&)> preview = {};                // called where one was asked for, with whole tallies
+  std::function<double(const BakeState&)> estimateError = {};  // estimated relative error of what there is
+  std::function<void(double error, std::uint64_t photons)> estimated = {};  // told of every estimate
+};
+
+struct JobResult {
+  JobEnd end = JobEnd::photons;
+  bool saved = false;  // all that the state holds is in the folder of states
 };
 
 /// What there is of a bake: its header says of which photons.
@@ -43,28 +61,35 @@ IndexRange remaining(const BakeState& state, IndexRange range, const std::string
 /// The same of samples; the state must be one of gathered direct light.
 IndexRange remainingSamples(const BakeState& state, IndexRange range, const std::string& file);
 
-/// Gathers and traces what is left of the job's ranges, in order, into `state`. Saves a state every checkpointSeconds
-/// and at the end; one that fails is warned of and tried again at the next. `folder` may be null: nothing is saved.
-void runJob(const BakeJob& job, BakeState& state, CheckpointFolder* folder);
+/// Gathers and traces what is left of the job's ranges, in order, into `state`, until they are done or something else
+/// ends it. Saves a state every checkpointSeconds and at the end; one that fails is warned of and tried again at the
+/// next. `folder` may be null: nothing is saved.
+JobResult runJob(const BakeJob& job, BakeState& state, CheckpointFolder* folder);
+
+/// True from when the job has had its time, given that it has traced so many photons.
+bool isOver(const BakeJob& job, std::uint64_t photons);
 
 /// Saves states of a running job when they are due.
 class CheckpointWriter {
  public:
   CheckpointWriter(const BakeJob& job, CheckpointFolder* folder);
   bool due() const { return folder_ != nullptr && clock_.due(); }
+  /// Seconds, for JobProgress.
+  double untilDue() const { return folder_ != nullptr ? clock_.untilDue() : -1; }
   /// `state` is whole; what was done for that since `start` counts as part of the cost of saving. A failure is warned
   /// of.
   void save(BakeState& state, CheckpointClock::Clock::time_point start = CheckpointClock::Clock::now());
-  /// At the end of the job: a failure is an Error where the job wants the state for itself.
-  void saveLast(BakeState& state);
+  /// At the end of the job. True if the state is saved.
+  bool saveLast(BakeState& state);
 
  private:
-  void trySaving(BakeState& state);
+  bool trySaving(BakeState& state);
   void addCost(BakeState& state, CheckpointClock::Clock::time_point start) const;
 
   const BakeJob& job_;
   CheckpointFolder* folder_;
   CheckpointClock clock_;
+  bool failed_ = false;  // the last time
 };
 
 /// Adds the time since its making, at every call the time since the last one.

@@ -117,13 +117,38 @@ std::optional<PartHeader> CheckpointFolder::peek() const {
   return std::nullopt;
 }
 
-void CheckpointFolder::save(const PartHeader& header, std::span<const std::uint8_t> scene, const Tallies& tallies) {
+void CheckpointFolder::write(const PartHeader& header, std::span<const std::uint8_t> scene,
+                             const Tallies& tallies) const {
   const std::vector<fs::path> before = states();
   const std::uint64_t number = before.empty() ? 1 : *numberOf(before.front()) + 1;
   writePart(folder_ / stateName(number), header, scene, tallies);
-  for (std::size_t i = kKept - 1; i < before.size(); ++i) {
-    std::error_code ignored;
-    fs::remove(before[i], ignored);
+  removeBut(kKept);
+}
+
+void CheckpointFolder::removeBut(std::size_t kept) const {
+  const std::vector<fs::path> all = states();
+  std::error_code ignored;
+  for (std::size_t i = kept; i < all.size(); ++i) fs::remove(all[i], ignored);
+}
+
+std::uint64_t CheckpointFolder::bytes() const {
+  std::uint64_t sum = 0;
+  std::error_code none;
+  for (const fs::path& file : states()) {
+    const std::uintmax_t size = fs::file_size(file, none);
+    if (!none) sum += size;
+  }
+  return sum;
+}
+
+void CheckpointFolder::save(const PartHeader& header, std::span<const std::uint8_t> scene, const Tallies& tallies) {
+  if (!isFile(lock_, folder_ / kLock)) open();
+  try {
+    write(header, scene, tallies);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::outOfResource || states().size() < kKept) throw;
+    keepNewest();
+    write(header, scene, tallies);
   }
 }
 

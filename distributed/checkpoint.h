@@ -4,6 +4,7 @@
 // the moment before the older one is removed) three of them. Names count up: state-000007.part.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -38,8 +39,15 @@ class CheckpointFolder {
   /// What load() would look at, newest first. Damaged headers are passed over.
   std::optional<PartHeader> peek() const;
 
-  /// Writes the next state and removes all but it and the one before.
+  /// Writes the next state and removes all but it and the one before. A folder that vanished is made again. Where the
+  /// disk is full, the older state makes room; the newest stays in any case.
   void save(const PartHeader& header, std::span<const std::uint8_t> scene, const Tallies& tallies);
+
+  /// Makes room: all but the newest state go.
+  void keepNewest() const { removeBut(1); }
+
+  /// What all states take on disk.
+  std::uint64_t bytes() const;
 
   /// The newest state becomes `target`, in one step.
   void publish(const std::filesystem::path& target);
@@ -53,6 +61,8 @@ class CheckpointFolder {
  private:
   std::vector<std::filesystem::path> states() const;  // newest first
   void removeLeftovers() const;
+  void removeBut(std::size_t kept) const;
+  void write(const PartHeader& header, std::span<const std::uint8_t> scene, const Tallies& tallies) const;
 
   std::filesystem::path folder_;
   int lock_ = -1;
@@ -73,6 +83,9 @@ class CheckpointClock {
   }
   /// Until the next one.
   double interval() const { return next_; }
+  double untilDue(Clock::time_point now = Clock::now()) const {
+    return interval_ > 0 ? std::max(0.0, next_ - secondsSince(now)) : -1;
+  }
 
  private:
   static constexpr double kCostFactor = 50;

@@ -49,8 +49,8 @@ class MpiJob {
   /// Every rank's text, in order, on all ranks.
   virtual std::vector<std::string> gather(const std::string& text) = 0;
   /// As runJob(). The state of rank 0 receives everything; those of the others are emptied. `folder` is used on rank 0
-  /// alone.
-  virtual void run(const BakeJob& job, BakeState& state, CheckpointFolder* folder) = 0;
+  /// alone, and the result is that of rank 0 alone. A rank that is told to stop stops all.
+  virtual JobResult run(const BakeJob& job, BakeState& state, CheckpointFolder* folder) = 0;
 
   /// Tells the error and ends all ranks with its exit code: for errors that the others do not know of.
   [[noreturn]] virtual void fail(ExitCode code, const std::string& message) = 0;

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 
@@ -14,14 +15,25 @@
 namespace lucarne {
 namespace {
 
-constexpr std::uint64_t kChunk = 4096;
+constexpr std::uint64_t kLargestChunk = 4096, kSmallestChunk = 64;
+
+/// What threads take from a batch: taken in order, and always finished. `chunk` at a time.
+struct Batch {
+  IndexRange range;
+  std::uint64_t chunk;
+  std::atomic<std::uint64_t> taken{0};  // from the beginning of the range: an index past its end may not fit 64 bits
+
+  Batch(IndexRange range_, std::size_t threads)
+      : range(range_), chunk(std::clamp<std::uint64_t>(range.size() / (8 * threads), kSmallestChunk, kLargestChunk)) {}
+  /// What was taken is a beginning of the range.
+  std::uint64_t done() const { return std::min(taken.load(), range.size()); }
+};
 
 /// One thread's sink over its tallies, kept from batch to batch.
 class Worker {
  public:
   virtual ~Worker() = default;
-  /// `taken` counts from the beginning of the range: an index past its end may not fit 64 bits.
-  virtual void take(std::atomic<std::uint64_t>& taken, IndexRange range) = 0;
+  virtual void take(Batch& batch) = 0;
   /// Everything this worker did since the last reset, deposits included.
   virtual Ledger ledger() const = 0;
   virtual void reset() = 0;
@@ -33,12 +45,13 @@ class SinkWorker final : public Worker {
   SinkWorker(const PhotonTask& task, const PhotonRunOptions& options, const Tallies& tallies)
       : task_(task), options_(options), sink_(task.map, task.layout, task.directions, options.part, tallies) {}
 
-  void take(std::atomic<std::uint64_t>& taken, IndexRange range) override {
+  void take(Batch& batch) override {
     const FlushDenormals mode;
-    for (;;) {
-      const std::uint64_t offset = taken.fetch_add(kChunk, std::memory_order_relaxed);
+    const IndexRange range = batch.range;
+    while (!options_.stop || !options_.stop()) {
+      const std::uint64_t offset = batch.taken.fetch_add(batch.chunk, std::memory_order_relaxed);
       if (offset >= range.size()) break;
-      const std::uint64_t begin = range.begin + offset, end = begin + std::min(kChunk, range.size() - offset);
+      const std::uint64_t begin = range.begin + offset, end = begin + std::min(batch.chunk, range.size() - offset);
       tracePhotons(task_.scene, {begin, end}, options_.seed, options_.limits, sink_, ledger_);
     }
     sink_.flush();
@@ -71,15 +84,25 @@ class BatchSize {
   std::uint64_t next() const { return size_; }
   void took(double seconds) {
     if (seconds < 0.125 && size_ < kLargest) size_ *= 2;
-    if (seconds > 0.5 && size_ > kChunk) size_ /= 2;
+    if (seconds > 0.5 && size_ > kSmallest) size_ /= 2;
   }
 
  private:
-  static constexpr std::uint64_t kLargest = std::uint64_t{1} << 26;
-  std::uint64_t size_ = 8 * kChunk;
+  static constexpr std::uint64_t kLargest = std::uint64_t{1} << 26, kSmallest = 512;
+  std::uint64_t size_ = 32768;
 };
 
 }  // namespace
+
+bool nearlyFull(const FluxSum& incident) {
+  return std::any_of(incident.units.begin(), incident.units.end(),
+                     [](const Int128 sum) { return sum >= (Int128{1} << 62); });
+}
+
+bool hasPrivateTallies(const TallyLayout& layout, const PhotonRunOptions& options) {
+  const auto threads = static_cast<std::uint64_t>(options.threads);
+  return threads > 1 && layout.bytes() * threads <= options.privateTallyBytes;
+}
 
 void checkTalliesFit(const FluxSum& incident) {
   for (const Int128 sum : incident.units)
@@ -97,7 +120,7 @@ class PhotonRun::Impl {
         allowed_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads)),
         arena_(options.threads) {
     const auto threads = static_cast<std::size_t>(options.threads);
-    const bool shared = threads > 1 && task.layout.bytes() * threads > options.privateTallyBytes;
+    const bool shared = threads > 1 && !hasPrivateTallies(task.layout, options);
     copies_.reserve(threads);
     for (std::size_t i = 0; i < threads; ++i) {
       if (shared) {
@@ -112,12 +135,11 @@ class PhotonRun::Impl {
   std::uint64_t trace(IndexRange range, const std::function<bool(const RunProgress&)>& progress) {
     std::uint64_t done = range.begin;
     while (done < range.end) {
-      const std::uint64_t end = done + std::min(batch_.next(), range.end - done);
-      traceBatch({done, end});
-      done = end;
+      const std::uint64_t size = std::min(batch_.next(), range.end - done), traced = traceBatch({done, done + size});
+      done += traced;
       const Ledger sum = sumLedgers();
       checkTalliesFit(sum.incident);
-      if (!progress({sum.photons, sum.rays})) break;
+      if (!progress({sum.photons, sum.rays}) || traced < size) break;
     }
     return done - range.begin;
   }
@@ -133,15 +155,17 @@ class PhotonRun::Impl {
   }
 
  private:
-  void traceBatch(IndexRange range) {
-    std::atomic<std::uint64_t> taken{0};
+  /// How many, from the beginning of the range.
+  std::uint64_t traceBatch(IndexRange range) {
+    Batch batch(range, workers_.size());
     const auto start = std::chrono::steady_clock::now();
     arena_.execute([&] {
       tbb::parallel_for(
-          std::size_t{0}, workers_.size(), [&](std::size_t w) { workers_[w]->take(taken, range); },
-          tbb::simple_partitioner());
+          std::size_t{0}, workers_.size(), [&](std::size_t w) { workers_[w]->take(batch); }, tbb::simple_partitioner());
     });
-    batch_.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (batch.done() == range.size())
+      batch_.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    return batch.done();
   }
 
   Ledger sumLedgers() const {

@@ -23,6 +23,8 @@ class RangeDealer {
   IndexRange next(int rank);
   /// What the rank did with its last piece.
   void finished(int rank, std::uint64_t indices, double seconds);
+  /// The range goes on to here.
+  void extend(std::uint64_t end) { left_.end = end; }
   bool empty() const { return left_.size() == 0; }
   /// What was dealt ends here.
   std::uint64_t begin() const { return left_.begin; }

@@ -72,12 +72,10 @@ class MpiJobImpl final : public MpiJob {
     return all;
   }
 
-  void run(const BakeJob& job, BakeState& state, CheckpointFolder* folder) override {
-    if (rank_ == 0) {
-      runRoot(comm_, job, state, folder);
-    } else {
-      runWorker(comm_, job, state);
-    }
+  JobResult run(const BakeJob& job, BakeState& state, CheckpointFolder* folder) override {
+    if (rank_ == 0) return runRoot(comm_, job, state, folder);
+    runWorker(comm_, job, state);
+    return {};
   }
 
   void fail(ExitCode code, const std::string& message) override {

@@ -12,6 +12,7 @@ namespace lucarne {
 struct RankReport {
   std::uint64_t count = 0, rays = 0;  // photons or samples
   double seconds = 0;
+  std::uint64_t stop = 0;  // 1: this rank was told to stop, and so all are
 };
 
 enum class Order : std::uint64_t { gather, trace, collect, end };

@@ -7,6 +7,6 @@
 
 namespace lucarne {
 
-void runRoot(MPI_Comm comm, const BakeJob& job, BakeState& state, CheckpointFolder* folder);
+JobResult runRoot(MPI_Comm comm, const BakeJob& job, BakeState& state, CheckpointFolder* folder);
 
 }  // namespace lucarne

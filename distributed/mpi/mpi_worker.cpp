@@ -33,6 +33,7 @@ void runWorker(MPI_Comm comm, const BakeJob& job, BakeState& state) {
   RankReport report;
   std::uint64_t rays = 0;  // since the last collecting
   for (;;) {
+    report.stop = job.control.stop() ? 1 : 0;
     sendReport(comm, report);
     report = {};
     const RankOrder order = receiveOrder(comm);

@@ -25,6 +25,17 @@ class Mpi : public test::ProgramTest {
     return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ASAN_OPTIONS=detect_leaks=0 "
            "timeout -k 5 200 mpirun --oversubscribe --bind-to none ";
   }
+  /// Of the job that runs in the test's folder; 0: not found.
+  pid_t pidOfRank(int rank) const {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator("/proc", none)) {
+      if (fs::read_symlink(entry.path() / "cwd", none) != fs::canonical(folder_)) continue;
+      const std::string variable = std::string(1, '\0') + "OMPI_COMM_WORLD_RANK=" + std::to_string(rank) + '\0';
+      if ((std::string(1, '\0') + test::slurp(entry.path() / "environ")).find(variable) != std::string::npos)
+        return static_cast<pid_t>(std::stol(entry.path().filename().string()));
+    }
+    return 0;
+  }
   static std::string bake(const std::string& output, const std::string& photons) {
     return std::string("\"$LUCARNE\" bake") + kQuickScene + "--density 10 --quiet -o " + output + " --photons " +
            photons + " ";
@@ -101,6 +112,53 @@ TEST_F(Mpi, AKilledRankEndsTheJobWhichGoesOnWithFewerToTheSameBits) {
   const auto resumed = shell(mpirun() + "-n 2 " + bake("team.dlm", enough) + "--resume");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   ASSERT_EQ(shell(bake("whole.dlm", enough)).code, 0);
+  EXPECT_TRUE(same("team.dlm", "whole.dlm"));
+}
+
+TEST_F(Mpi, ASignalToAnyRankStopsAllAlikeWithTheStateSaved) {
+  for (const int rank : {2, 0}) {
+    test::Background job(folder_, "env " + mpirun() + "-n 3 " + bake("team.dlm", "100G") + "--threads 1 --resume");
+    while (job.running() && !exists("team.checkpoint/lock")) ::usleep(2000);
+    ::usleep(300'000);
+    const pid_t told = pidOfRank(rank);
+    ASSERT_GT(told, 0);
+    ::kill(told, SIGTERM);
+    EXPECT_EQ(job.exitCode(), 130) << test::slurp(folder_ / "log");
+    EXPECT_NE(test::slurp(folder_ / "log").find("photons are saved in team.checkpoint"), std::string::npos)
+        << test::slurp(folder_ / "log");
+  }
+  const auto o = run("info \"$(ls team.checkpoint/*.part | tail -n 1)\" --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const std::string enough = std::to_string(nlohmann::json::parse(o.out)["photons"].get<std::uint64_t>() + 100'000);
+  const auto resumed = shell(mpirun() + "-n 2 " + bake("team.dlm", enough) + "--resume");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  ASSERT_EQ(shell(bake("whole.dlm", enough)).code, 0);
+  EXPECT_TRUE(same("team.dlm", "whole.dlm"));
+}
+
+TEST_F(Mpi, APreviewIsWrittenWhileTheRanksTrace) {
+  test::Background job(folder_, "env " + mpirun() + "-n 2 " + bake("team.dlm", "100G") + "--threads 1");
+  while (job.running() && !exists("team.checkpoint/lock")) ::usleep(2000);
+  ::usleep(200'000);
+  const pid_t first = pidOfRank(0);
+  ASSERT_GT(first, 0);
+  ::kill(first, SIGUSR1);
+  while (job.running() && !exists("team.preview.dlm/manifest.json")) ::usleep(2000);
+  ASSERT_TRUE(job.running()) << test::slurp(folder_ / "log");
+  const auto o = run("info team.preview.dlm --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const std::string photons = std::to_string(nlohmann::json::parse(o.out)["photons"].get<std::uint64_t>());
+  job.kill();
+  ASSERT_EQ(shell(bake("whole.dlm", photons)).code, 0);
+  EXPECT_EQ(contentHash("team.preview.dlm"), contentHash("whole.dlm"));
+}
+
+TEST_F(Mpi, TheTargetEndsAtTheSamePhotonAsOnOneProcess) {
+  const std::string target = " --density 4 --target-error 2% ";
+  const std::string quick = std::string("\"$LUCARNE\" bake") + kQuickScene + "--quiet" + target;
+  ASSERT_EQ(shell(quick + "-o whole.dlm").code, 0);
+  const auto o = shell(mpirun() + "-n 3 " + quick + "-o team.dlm --threads 1");
+  ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_TRUE(same("team.dlm", "whole.dlm"));
 }
 

@@ -123,8 +123,7 @@ TEST_F(DirectJobs, EverySavedStateGoesOnToTheSameEnd) {
   for (const IndexRange& end : {IndexRange{0, 1}, IndexRange{1, 7}, IndexRange{3, kSamples}}) {
     BakeJob saving = job({0, end.begin * 5'000}, {0, end.end}, 2);
     saving.checkpointSeconds = 1e-6;
-    saving.lastStateIsWanted = true;
-    runJob(saving, state, &folder);
+    EXPECT_TRUE(runJob(saving, state, &folder).saved);
     BakeState resumed = nothingYet();
     const auto header = folder.load(resumed.tallies, [](const PartHeader&, const std::string&) {});
     ASSERT_TRUE(header);
