@@ -42,7 +42,8 @@ nlohmann::json triple(Vec3d v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-Prober::Prober(const Dlm& dlm) : maps_(dlm.maps), directions_(dlm.maps.directionCount), surface_(dlm.scene, dlm.maps) {}
+Prober::Prober(const Scene& scene, const LightMaps& maps)
+    : maps_(maps), directions_(maps.directionCount), surface_(scene, maps) {}
 
 ProbeAnswer Prober::probe(Vec3d position, Vec3d normal, ProbeDetail detail) const {
   if (!isFinite(position) || !isFinite(normal)) throw InputError("a point or normal has a number that is not finite");

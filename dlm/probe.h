@@ -40,7 +40,9 @@ enum class ProbeDetail {
 class Prober {
  public:
   /// `dlm` must outlive the prober.
-  explicit Prober(const Dlm& dlm);
+  explicit Prober(const Dlm& dlm) : Prober(dlm.scene, dlm.maps) {}
+  /// As read from a .dlm; both must outlive the prober.
+  Prober(const Scene& scene, const LightMaps& maps);
 
   /// Position in metres of the file's world; the normal need not be unit. InputError on a normal of length zero and on
   /// numbers that are not finite.

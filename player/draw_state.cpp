@@ -3,11 +3,20 @@
 namespace lucarne {
 namespace {
 
-constexpr GLuint kFirstMaterialUnit = 4;  // base colour, metallic-roughness, emission (surface.glsl)
+constexpr GLuint kMaterialUnits[] = {4, 5, 6, 10};  // base colour, metallic-roughness, emission, normal (surface.glsl)
 
 }  // namespace
 
 void DrawState::reset() { *this = {}; }
+
+void DrawState::forgetBindings() {
+  const StateCounts counts = counts_;
+  const View view = view_;
+  const int words = words_;
+  reset();
+  counts_ = counts;
+  setView(view, words);
+}
 
 void DrawState::useProgram(const ShadingProgram& program) {
   if (program_ == &program) return;
@@ -36,6 +45,7 @@ void DrawState::useMaterial(std::uint32_t material, const MaterialTextures* text
     bindTexture(0, textures->baseColor);
     bindTexture(1, textures->metallicRoughness);
     bindTexture(2, textures->emissive);
+    bindTexture(3, textures->normal);
   }
   if (material_ == material) return;
   material_ = material;
@@ -47,7 +57,7 @@ void DrawState::bindTexture(GLuint unit, GLuint texture) {
   if (textures_[unit] == texture) return;
   textures_[unit] = texture;
   ++counts_.textureSwitches;
-  glBindTextureUnit(kFirstMaterialUnit + unit, texture);
+  glBindTextureUnit(kMaterialUnits[unit], texture);
 }
 
 }  // namespace lucarne

@@ -15,6 +15,9 @@ class DrawState {
   /// Forgets what was bound (another user of the context may have changed it) and the counts.
   void reset();
 
+  /// Forgets what was bound, keeps the counts.
+  void forgetBindings();
+
   void useProgram(const ShadingProgram& program);
   /// ψ of the direction passes; `words` as MapTables::wordsPerSide. Every program gets it once.
   void setDirection(int psi, int words);
@@ -30,7 +33,7 @@ class DrawState {
 
   StateCounts counts_;
   const ShadingProgram* program_ = nullptr;
-  std::array<GLuint, 3> textures_{};
+  std::array<GLuint, 4> textures_{};
   std::uint32_t material_ = ~0u;
   int direction_ = -1, words_ = 1;
   View view_;

@@ -11,8 +11,8 @@ class EyeAdaptation {
   static bool meters(std::uint64_t frame) { return frame % kFramesPerMetering == 0; }
 
   /// Once a frame, in their order; `seconds` since the one before. The first is exposed as it should be at once.
-  void follow(const DisplayPass& display, const FrameTarget& frame, std::uint64_t number, double seconds) {
-    if (meters(number)) meter(display.meter(frame));
+  void follow(const DisplayPass& display, const FrameTarget& frame, ViewScale scale, std::uint64_t number, double seconds) {
+    if (meters(number)) meter(display.meter(frame, scale));
     pass(seconds);
   }
   /// The two halves of follow(), for those who meter no frames but every so many.

@@ -1,7 +1,9 @@
 #include "player/frame_renderer.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "player/frustum.h"
 #include "player/lobe.h"
 
 namespace lucarne {
@@ -54,9 +56,10 @@ FrameRenderer::FrameRenderer(const Scene& scene, const LightMaps& maps, LightMap
       programs_(constantsOf(maps_, outputScale, lobe, maps.directionCount, scene.frame.scale)),
       camera_(makeBuffer(std::as_bytes(std::span<const CameraBlock, 1>(std::array<CameraBlock, 1>{})),
                          GL_DYNAMIC_STORAGE_BIT)),
-      singlepass_(makeSinglepass(scene_.list)),
+      outputScale_(outputScale),
+      singlepass_(makeSinglepass()),
       multipass_(makeMultipass(scene_.list, maps)),
-      views_(makeViewRenderer(scene_.list)) {
+      views_(makeViewRenderer()) {
   stats_.textureBytes = maps_.textureBytes + scene_.textures.bytes();
   stats_.lightMapBytes = maps_.lightMapBytes;
   stats_.directions = maps.directionCount;
@@ -74,7 +77,12 @@ void FrameRenderer::uploadCamera(const FrameView& view, const FrameTarget& targe
   glNamedBufferSubData(camera_.get(), 0, sizeof block, &block);
 }
 
-void FrameRenderer::prepass(const FrameTarget& target) const {
+void FrameRenderer::setSky(const ImageRgb& image) {
+  sky_.emplace(image, outputScale_);
+  stats_.textureBytes += sky_->bytes();
+}
+
+void FrameRenderer::prepass(const DrawContext& c, const FrameTarget& target, bool withClear) {
   constexpr GLuint kNobody[4] = {~0u, 0, 0, 0};
   constexpr GLfloat kFar = 0;
   glBindFramebuffer(GL_FRAMEBUFFER, target.prepass.get());
@@ -83,7 +91,20 @@ void FrameRenderer::prepass(const FrameTarget& target) const {
   glClearBufferuiv(GL_COLOR, 0, kNobody);
   glClearBufferfv(GL_DEPTH, 0, &kFar);
   glUseProgram(programs_.prepass().get());
-  glDrawArrays(GL_TRIANGLES, 0, scene_.vertexCount);
+  ranges_.reset();
+  for (const Batch& batch : scene_.list.batches) {
+    if (batch.variant.masked || (batch.variant.clear && !withClear)) continue;
+    for (std::uint32_t r = batch.firstRun; r < batch.endRun(); ++r) {
+      if (c.visible[r] != 0) ranges_.add(scene_.list.runs[r].firstVertex, scene_.list.runs[r].vertexCount);
+    }
+  }
+  if (!ranges_.empty()) {
+    ranges_.draw();
+    state_.countDraw();
+  }
+  for (const Batch& batch : scene_.list.batches) {
+    if (batch.variant.masked) drawBatch(c, PassKind::mask, batch, ranges_, state_);
+  }
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_EQUAL);
 }
@@ -114,13 +135,29 @@ void FrameRenderer::draw(const FrameView& view, RendererKind renderer, const Fra
   glClearNamedFramebufferfv(target.shading.get(), GL_COLOR, 0, kBlack);
   state_.reset();
   state_.setView(view.view, maps_.wordsPerSide);
-  prepass(target);
-  state_.countDraw();
-  shading.shade({scene_, maps_, programs_}, target, state_);
+  const bool full = view.view.kind == ViewKind::full;
+  const auto visible =
+      visibleRuns(Frustum(view.camera, static_cast<double>(target.width) / target.height), scene_.list.runs);
+  const DrawContext context{scene_, maps_, programs_, visible};
+  prepass(context, target, !full);
+  shading.shade(context, target, state_);
+  if (full) drawBehindAndBefore(context, view.camera.position, target);
   glDepthMask(GL_TRUE);
   stats_.counts = state_.counts();
-  stats_.unsorted = shading.unsorted();
+  stats_.unsorted = shading.unsorted(context);
   ++stats_.unsorted.draws;
+  stats_.charts = visible.size();
+  stats_.visibleCharts = static_cast<std::uint64_t>(std::count(visible.begin(), visible.end(), 1));
+}
+
+/// The sky where there is nothing, then what is seen through.
+void FrameRenderer::drawBehindAndBefore(const DrawContext& context, Vec3d eye, const FrameTarget& target) {
+  if (sky_) {
+    sky_->draw(target);
+    bindCommon(target);
+    state_.forgetBindings();
+  }
+  drawClear(context, eye, target, state_);
 }
 
 }  // namespace lucarne

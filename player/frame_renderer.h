@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "player/map_renderer.h"
 #include "player/render_options.h"
+#include "player/sky_pass.h"
 
 namespace lucarne {
 
@@ -25,12 +27,20 @@ class FrameRenderer {
   /// is.
   void draw(const FrameView& view, RendererKind renderer, const FrameTarget& target);
 
+  /// Shown where there is no surface, instead of black; equirectangular, cd/m² (sky_pass.h).
+  void setSky(const ImageRgb& image);
+
+  /// Programs for it are made at the first frame that needs them.
+  void setLobe(LobeKind lobe) { programs_.setLobe(lobe); }
+  float outputScale() const { return outputScale_; }
+
   /// Of the last frame drawn; times are left to the caller.
   const RenderStats& stats() const { return stats_; }
 
  private:
   void uploadCamera(const FrameView& view, const FrameTarget& target) const;
-  void prepass(const FrameTarget& target) const;
+  void prepass(const DrawContext& context, const FrameTarget& target, bool withClear);
+  void drawBehindAndBefore(const DrawContext& context, Vec3d eye, const FrameTarget& target);
   MapRenderer& rendererFor(const View& view, RendererKind renderer);
   void bindCommon(const FrameTarget& target);
 
@@ -38,6 +48,9 @@ class FrameRenderer {
   GpuScene scene_;
   Programs programs_;
   GlBuffer camera_;
+  float outputScale_;
+  std::optional<SkyPass> sky_;
+  VertexRanges ranges_;
   std::unique_ptr<MapRenderer> singlepass_, multipass_, views_;
   DrawState state_;
   RenderStats stats_;

@@ -32,11 +32,14 @@ struct GpuMaterial {
   float baseColor[3], metallic;
   float emissive[3], roughness;
   float specularColor[3], specular;
-  float dielectric, unused[3];  // ((ior − 1)/(ior + 1))²
-  float linear[3][4];           // of base colour, metallic-roughness, emission: rowU, rowV
-  float offset[3][4];           // offset, texture coordinate set, 0
+  float dielectric;   // ((ior − 1)/(ior + 1))²
+  float alpha;        // −1 where the surface covers all
+  float alphaCutoff;  // of masks; 0: not a mask; −1: only the front is there
+  float normalScale;
+  float linear[4][4];  // of base colour, metallic-roughness, emission, normal map: rowU, rowV
+  float offset[4][4];  // offset, texture coordinate set; the first one's last is the transmission
 };
-static_assert(sizeof(GpuMaterial) == 160);
+static_assert(sizeof(GpuMaterial) == 192);
 
 /// A corner of a triangle.
 struct GpuVertex {
@@ -45,7 +48,8 @@ struct GpuVertex {
   float uv0[2], uv1[2];
   float chartUv[2];                   // 0..1 over the chart's rectangle
   std::uint32_t frontSide, backSide;  // records
+  float tangent[4];                   // of the normal map: unit, sign of the bitangent
 };
-static_assert(sizeof(GpuVertex) == 56);
+static_assert(sizeof(GpuVertex) == 72);
 
 }  // namespace lucarne

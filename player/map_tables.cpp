@@ -114,6 +114,12 @@ void markMembers(const SideMaps& side, GpuMemberBits* words, int wordCount) {
 
 }  // namespace
 
+std::uint64_t mapTextureBytes(const LightMaps& maps, LightMapFormat format, const TextureLimits& limits) {
+  const auto one = [](const SideMaps&) { return 1; };
+  return packSides(maps, limits.layers, limits, storedCount).texels() * bytesPerTexel(format) +
+         packSides(maps, limits.layers, limits, one).texels() * kEvenBytesPerTexel;
+}
+
 MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const TextureLimits& limits) {
   LUCARNE_CHECK_EQ(set.count(), maps.directionCount);
   for (const SideMaps& side : maps.sides) checkSide(maps, side);

@@ -9,6 +9,7 @@
 #include "player/cell_tables.h"
 #include "player/gpu_records.h"
 #include "player/layered_pack.h"
+#include "player/render_options.h"
 
 namespace lucarne {
 
@@ -24,6 +25,14 @@ struct MapTables {
 
 /// A chart whose cells depend on the fragment's normal.
 inline bool needsCellTable(const MapChart& chart) { return !chart.planar || chart.smooth; }
+
+/// Of irradiance and statistics.
+inline constexpr std::uint64_t kEvenBytesPerTexel = 16 + 8;
+/// Bytes of textures that the directional maps, the irradiance and the statistics take.
+std::uint64_t mapTextureBytes(const LightMaps& maps, LightMapFormat format, const TextureLimits& limits);
+constexpr std::uint64_t bytesPerTexel(LightMapFormat format) {
+  return format == LightMapFormat::float32 ? 16 : format == LightMapFormat::half ? 8 : 4;
+}
 
 /// Checks the indices of `maps` against each other (std::logic_error: a reader let them through).
 MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const TextureLimits& limits);

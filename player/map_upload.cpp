@@ -38,10 +38,6 @@ TexelCoding codingOf(LightMapFormat format) {
           }};
 }
 
-std::uint64_t gpuTexelBytes(LightMapFormat format) {
-  return format == LightMapFormat::float32 ? 16 : format == LightMapFormat::half ? 8 : 4;
-}
-
 /// A rectangle of one layer: the texels of one ψ of one side.
 struct Rectangle {
   const Rgb* texels = nullptr;
@@ -179,8 +175,8 @@ GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format) {
   gpu.directional = uploadDirectional(maps, tables, format, scale);
   gpu.irradiance = uploadIrradiance(maps, tables.irradiance);
   gpu.statistics = uploadStatistics(maps, tables.irradiance);
-  gpu.lightMapBytes = tables.directional.texels() * gpuTexelBytes(format);
-  gpu.textureBytes = gpu.lightMapBytes + tables.irradiance.texels() * (16 + 8);
+  gpu.lightMapBytes = tables.directional.texels() * bytesPerTexel(format);
+  gpu.textureBytes = gpu.lightMapBytes + tables.irradiance.texels() * kEvenBytesPerTexel;
   if (anyNeedsCellTable(maps)) {
     uploadCellTable(set, limits, gpu);
   } else {

@@ -6,44 +6,81 @@
 namespace lucarne {
 namespace {
 
-/// The vertex ranges of one batch that have one ψ.
+/// The runs of one batch that have one ψ.
 struct PassDraw {
   std::uint32_t batch;
-  std::vector<GLint> first;
-  std::vector<GLsizei> count;
+  std::vector<std::uint32_t> runs;
+};
+
+/// A second image of sums, for normal maps, beside that of the frame.
+struct ReliefTarget {
+  int width = 0, height = 0;
+  GlTexture sums;
+  GlFramebuffer framebuffer;
+
+  void fit(const FrameTarget& target) {
+    if (width != target.width || height != target.height) {
+      sums = makeTexture({GL_TEXTURE_2D, GL_RGBA32F, 1, target.width, target.height, 1});
+      GLuint name = 0;
+      glCreateFramebuffers(1, &name);
+      framebuffer = GlFramebuffer(name);
+      width = target.width;
+      height = target.height;
+    }
+    constexpr GLenum kBoth[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    const GLuint name = framebuffer.get();  // the frame's images may be others at each frame
+    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, target.lobe.get(), 0);
+    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT1, sums.get(), 0);
+    glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, target.depth.get(), 0);
+    glNamedFramebufferDrawBuffers(name, 2, kBoth);
+    checkComplete(framebuffer, "two 32-bit float images");
+  }
 };
 
 class Multipass : public MapRenderer {
  public:
-  Multipass(const DrawList& list, const LightMaps& maps) : passes_(static_cast<std::size_t>(maps.directionCount)) {
+  Multipass(const DrawList& list, const LightMaps& maps)
+      : passes_(static_cast<std::size_t>(maps.directionCount)), directionsOfRun_(list.runs.size()) {
     for (std::uint32_t b = 0; b < list.batches.size(); ++b) {
       const Batch& batch = list.batches[b];
-      for (std::uint32_t r = batch.firstRun; r < batch.firstRun + batch.runCount; ++r)
-        addRun(maps, list.runs[r], b, batch.variant.textured);
+      if (batch.variant.clear) continue;
+      anyRelief_ |= batch.variant.relief && !batch.variant.even;
+      for (std::uint32_t r = batch.firstRun; r < batch.endRun(); ++r) addRun(maps, list.runs[r].chart, r, b);
     }
     for (std::size_t psi = 1; psi < passes_.size(); psi += 2) std::reverse(passes_[psi].begin(), passes_[psi].end());
   }
 
   void shade(const DrawContext& c, const FrameTarget& target, DrawState& state) override {
+    if (anyRelief_) relief_.fit(target);
     addDirections(c, target, state);
     glBindFramebuffer(GL_FRAMEBUFFER, target.shading.get());
     glBindTextureUnit(kLobeUnit, target.lobe.get());
+    glBindTextureUnit(kReliefUnit, relief_.sums.get());
     for (const Batch& batch : c.scene.list.batches) {
-      prepare(c, PassKind::compose, batch, state);
-      glDrawArrays(GL_TRIANGLES, static_cast<GLint>(batch.firstVertex), static_cast<GLsizei>(batch.vertexCount));
-      state.countDraw();
+      if (!batch.variant.clear) drawBatch(c, PassKind::compose, batch, ranges_, state);
     }
   }
 
-  StateCounts unsorted() const override { return unsorted_; }
+  StateCounts unsorted(const DrawContext& c) const override {
+    StateCounts counts;
+    for (const Batch& batch : c.scene.list.batches) {
+      for (std::uint32_t r = batch.firstRun; r < batch.endRun(); ++r) {
+        if (c.visible[r] == 0) continue;
+        counts.draws += directionsOfRun_[r] + 1;  // and one that composes
+        counts.directionSwitches += directionsOfRun_[r];
+        counts.materialSwitches += 1;
+        counts.textureSwitches += texturesOf(batch.variant);
+      }
+    }
+    return counts;
+  }
 
  private:
-  static constexpr GLuint kLobeUnit = 7;
+  static constexpr GLuint kLobeUnit = 7, kReliefUnit = 11;
 
-  /// Enters a chart into the passes of the directions that either of its sides has, next to the range before it if it
-  /// can.
-  void addRun(const LightMaps& maps, const ChartRun& run, std::uint32_t batch, bool textured) {
-    const MapChart& chart = maps.charts[run.chart];
+  /// Enters a chart into the passes of the directions that either of its sides has.
+  void addRun(const LightMaps& maps, std::uint32_t chartIndex, std::uint32_t run, std::uint32_t batch) {
+    const MapChart& chart = maps.charts[chartIndex];
     std::vector<std::uint16_t> directions;
     for (const std::uint32_t side : {chart.frontSide, chart.backSide}) {
       if (side == kNone || !maps.sides[side].lit) continue;
@@ -53,47 +90,56 @@ class Multipass : public MapRenderer {
     directions.erase(std::unique(directions.begin(), directions.end()), directions.end());
     for (const std::uint16_t psi : directions) {
       std::vector<PassDraw>& pass = passes_[psi];
-      if (pass.empty() || pass.back().batch != batch) pass.push_back({batch, {}, {}});
-      PassDraw& draw = pass.back();
-      const auto first = static_cast<GLint>(run.firstVertex), count = static_cast<GLint>(run.vertexCount);
-      if (!draw.first.empty() && draw.first.back() + draw.count.back() == first) {
-        draw.count.back() += count;
-      } else {
-        draw.first.push_back(first);
-        draw.count.push_back(count);
-      }
+      if (pass.empty() || pass.back().batch != batch) pass.push_back({batch, {}});
+      pass.back().runs.push_back(run);
     }
-    unsorted_.draws += directions.size() + 1;  // and one that composes
-    unsorted_.directionSwitches += directions.size();
-    unsorted_.materialSwitches += 1;
-    unsorted_.textureSwitches += textured ? 3 : 0;
+    directionsOfRun_[run] = directions.size();
   }
 
-  void prepare(const DrawContext& c, PassKind pass, const Batch& batch, DrawState& state) const {
-    state.useProgram(c.programs.shading(pass, batch.variant));
-    state.useMaterial(batch.material, batch.variant.textured ? &c.scene.textures.of(batch.material) : nullptr);
-  }
-
-  void addDirections(const DrawContext& c, const FrameTarget& target, DrawState& state) const {
+  /// Both sums to nothing, and blending on.
+  void beginSums(const FrameTarget& target) const {
     constexpr GLfloat kNothing[4] = {};
-    glClearNamedFramebufferfv(target.sums.get(), GL_COLOR, 0, kNothing);
-    glBindFramebuffer(GL_FRAMEBUFFER, target.sums.get());
+    const GLuint sums = anyRelief_ ? relief_.framebuffer.get() : target.sums.get();
+    glBindFramebuffer(GL_FRAMEBUFFER, sums);
+    glClearNamedFramebufferfv(sums, GL_COLOR, 0, kNothing);
+    if (anyRelief_) glClearNamedFramebufferfv(sums, GL_COLOR, 1, kNothing);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
+  }
+
+  void addDirections(const DrawContext& c, const FrameTarget& target, DrawState& state) {
+    beginSums(target);
+    bool writesRelief = true;
     for (std::size_t psi = 0; psi < passes_.size(); ++psi) {
-      if (passes_[psi].empty()) continue;
-      state.setDirection(static_cast<int>(psi), c.maps.wordsPerSide);
+      bool entered = false;
       for (const PassDraw& draw : passes_[psi]) {
-        prepare(c, PassKind::direction, c.scene.list.batches[draw.batch], state);
-        glMultiDrawArrays(GL_TRIANGLES, draw.first.data(), draw.count.data(), static_cast<GLsizei>(draw.first.size()));
+        ranges_.reset();
+        for (const std::uint32_t r : draw.runs) {
+          const ChartRun& run = c.scene.list.runs[r];
+          if (c.visible[r] != 0) ranges_.add(run.firstVertex, run.vertexCount);
+        }
+        if (ranges_.empty()) continue;
+        if (!entered) state.setDirection(static_cast<int>(psi), c.maps.wordsPerSide);
+        entered = true;
+        const Batch& batch = c.scene.list.batches[draw.batch];
+        if (anyRelief_ && writesRelief != batch.variant.relief) {  // programs without normal map have no second sum
+          writesRelief = batch.variant.relief;
+          glColorMaski(1, writesRelief, writesRelief, writesRelief, writesRelief);
+        }
+        useBatch(c, PassKind::direction, batch, state);
+        ranges_.draw();
         state.countDraw();
       }
     }
+    if (!writesRelief) glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDisable(GL_BLEND);
   }
 
   std::vector<std::vector<PassDraw>> passes_;  // [ψ]
-  StateCounts unsorted_;
+  std::vector<std::uint64_t> directionsOfRun_;
+  bool anyRelief_ = false;
+  ReliefTarget relief_;
+  VertexRanges ranges_;
 };
 
 }  // namespace

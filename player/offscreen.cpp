@@ -3,8 +3,10 @@
 #include <chrono>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "player/frame_renderer.h"
 #include "player/gl_context.h"
+#include "player/map_fit.h"
 #include "player/read_back.h"
 
 namespace lucarne {
@@ -52,12 +54,16 @@ ImageRgb supersampled(FrameRenderer& renderer, const FrameTarget& target, const 
 }  // namespace
 
 ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
-                     RenderStats* stats) {
+                     RenderStats* stats, const ImageRgb* sky) {
   const Clock::time_point start = Clock::now();
   const HeadlessGl gl;
   checkPictureSize(options);
   checkView(options, maps);
-  FrameRenderer renderer(scene, maps, options.format, 1.f, options.lobe);
+  const MapFit fit =
+      fitMaps(maps, options.format, options.gpuMemory > 0 ? options.gpuMemory : freeGpuMemory(), textureLimits());
+  if (!fit.note.empty()) logWarning(fit.note);
+  FrameRenderer renderer(scene, fit.fewer ? *fit.fewer : maps, fit.format, 1.f, options.lobe);
+  if (sky != nullptr && !sky->pixels.empty()) renderer.setSky(*sky);
   const FrameTarget target(options.width, options.height, true);
   const double loaded = secondsSince(start);
   ImageRgb image = supersampled(renderer, target, camera, options);

@@ -8,12 +8,13 @@
 
 namespace lucarne {
 
+/// `sky` (equirectangular, cd/m²) is shown where there is no surface.
 /// Linear radiance, cd/m²; the camera's yfov is kept, the width follows from the size. The same input gives the same
 /// bits on one machine. Views have the values that view_kind.h says. Error(usage) for a size OpenGL cannot draw or a ψ
 /// that is not there, Error(failed) without OpenGL 4.5,
 /// Error(outOfResource) when the maps do not fit.
 ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
-                     RenderStats* stats = nullptr);
+                     RenderStats* stats = nullptr, const ImageRgb* sky = nullptr);
 
 /// Error(usage) for a size that the current context cannot draw.
 void checkPictureSize(const RenderOptions& options);

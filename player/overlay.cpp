@@ -4,6 +4,8 @@
 #include <imgui/backends/imgui_impl_opengl3.h>
 #include <imgui/imgui.h>
 
+#include <algorithm>
+
 #include "base/units.h"
 
 namespace lucarne {
@@ -11,15 +13,18 @@ namespace {
 
 using Count = unsigned long long;
 
-void drawNumbers(const OverlayText& t) {
+void drawNumbers(const OverlayText& t, const LookSettings& look) {
   const StateCounts &now = t.stats.counts, &unsorted = t.stats.unsorted;
-  ImGui::Text("%.1f fps   %.1f ms   %d x %d", t.frameSeconds > 0 ? 1 / t.frameSeconds : 0., 1000 * t.frameSeconds,
-              t.width, t.height);
+  ImGui::Text("%.1f fps   %.1f ms   %d x %d (scale %.2f)", t.frameSeconds > 0 ? 1 / t.frameSeconds : 0.,
+              1000 * t.frameSeconds, t.width, t.height, t.renderScale);
   if (t.gpuSeconds) ImGui::Text("GPU %.2f ms", 1000 * *t.gpuSeconds);
-  ImGui::Text("%s   %d directions", t.renderer == RendererKind::multipass ? "multipass" : "singlepass",
-              t.stats.directions);
+  ImGui::Text("%s   %d directions   lobe %s", t.renderer == RendererKind::multipass ? "multipass" : "singlepass",
+              t.stats.directions, nameOf(look.lobe).data());
+  const std::string psi = look.view.kind == ViewKind::direction ? " " + std::to_string(look.view.psi) : "";
+  ImGui::Text("view           %s%s", nameOf(look.view.kind).data(), psi.c_str());
   ImGui::Separator();
   ImGui::Text("                 sorted   unsorted");
+  ImGui::Text("charts         %8llu of %llu in sight", Count{t.stats.visibleCharts}, Count{t.stats.charts});
   ImGui::Text("draws          %8llu   %8llu", Count{now.draws}, Count{unsorted.draws});
   ImGui::Text("directions     %8llu   %8llu", Count{now.directionSwitches}, Count{unsorted.directionSwitches});
   ImGui::Text("materials      %8llu   %8llu", Count{now.materialSwitches}, Count{unsorted.materialSwitches});
@@ -28,7 +33,10 @@ void drawNumbers(const OverlayText& t) {
   ImGui::Text("texture memory %.1f MB (light maps %.1f MB)", 1e-6 * static_cast<double>(t.stats.textureBytes),
               1e-6 * static_cast<double>(t.stats.lightMapBytes));
   if (t.photons > 0) ImGui::Text("photons        %s", formatCount(static_cast<std::uint64_t>(t.photons)).c_str());
-  ImGui::Text("exposure       %+.1f stops", t.exposureStops);
+  if (scaleOf(look.view.kind) == ViewScale::light) {
+    ImGui::Text("exposure       EV %.1f, %s %+.1f   %s", t.ev100, look.exposureLocked ? "held" : "automatic",
+                static_cast<double>(look.stops), nameOf(look.curve).data());
+  }
 }
 
 /// No wider than the numbers below it.
@@ -42,7 +50,7 @@ void drawNote(const std::string& note) {
 
 void drawHelp(bool open) {
   if (!open) {
-    ImGui::TextDisabled("H: help");
+    ImGui::TextDisabled("H: help   Tab: controls");
     return;
   }
   ImGui::Separator();
@@ -56,6 +64,7 @@ void drawHelp(bool open) {
       "1 2       singlepass, multipass\n"
       "+ - 0     brighter, darker, automatic\n"
       "H F1      this help     Esc   quit");
+  ImGui::TextUnformatted(kLookKeysHelp);
 }
 
 }  // namespace
@@ -74,6 +83,13 @@ Overlay::~Overlay() {
   ImGui::DestroyContext();
 }
 
+/// Times of the last frames, the newest at the right.
+void Overlay::drawGraph() const {
+  const float most = *std::max_element(milliseconds_.begin(), milliseconds_.end());
+  ImGui::PlotLines("##frames", milliseconds_.data(), static_cast<int>(milliseconds_.size()),
+                   static_cast<int>(frame_ % milliseconds_.size()), nullptr, 0, std::max(most, 50.f), {300, 36});
+}
+
 void Overlay::newFrame(const OverlayText& text) {
   ImGui_ImplOpenGL3_NewFrame();
   if (window_ != nullptr) {
@@ -85,7 +101,7 @@ void Overlay::newFrame(const OverlayText& text) {
   ImGui::NewFrame();
 }
 
-void Overlay::layOut(const OverlayText& text) {
+void Overlay::layOut(const OverlayText& text, LookSettings& look) {
   newFrame(text);
   ImGui::SetNextWindowPos({8, 8});
   ImGui::SetNextWindowBgAlpha(0.55f);
@@ -94,16 +110,24 @@ void Overlay::layOut(const OverlayText& text) {
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
   drawNote(text.note);
   if (text.stats.directions > 0) {
-    drawNumbers(text);
+    drawNumbers(text, look);
+    drawGraph();
     drawHelp(text.help);
   }
   ImGui::End();
+  if (text.stats.directions > 0) {
+    handleLookMouse(look);
+    drawLookPanel(look, text.stats.directions);
+    drawDivider(look, text.truth);
+  }
+  if (text.found != nullptr && text.found->has_value()) drawInspection(**text.found);
   ImGui::Render();
 }
 
-void Overlay::draw(const OverlayText& text) {
-  layOut(text);
-  if (window_ == nullptr) layOut(text);  // a panel finds its size in one frame and shows it in the next
+void Overlay::draw(const OverlayText& text, LookSettings& look) {
+  milliseconds_[frame_++ % milliseconds_.size()] = static_cast<float>(1000 * text.lastFrameSeconds);
+  layOut(text, look);
+  if (window_ == nullptr) layOut(text, look);  // a panel finds its size in one frame and shows it in the next
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

@@ -1,9 +1,11 @@
 // The text over the picture.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
+#include "player/look_panel.h"
 #include "player/render_options.h"
 
 struct GLFWwindow;
@@ -11,14 +13,18 @@ struct GLFWwindow;
 namespace lucarne {
 
 struct OverlayText {
-  double frameSeconds = 0;           // smoothed
+  double frameSeconds = 0;  // smoothed
+  double lastFrameSeconds = 0;
   std::optional<double> gpuSeconds;  // where the driver's timer can be believed
   RendererKind renderer = RendererKind::singlepass;
   RenderStats stats;
   double photons = 0;         // 0: not known
   int width = 0, height = 0;  // drawn pixels
-  double exposureStops = 0;
+  double renderScale = 1;     // of the window's pixels, each way
+  double ev100 = 0;           // of the picture shown
   bool help = false;
+  std::string truth;                                 // LookTools::truthState()
+  const std::optional<Inspection>* found = nullptr;  // shown where there is one
   std::string note;         // what happens just now: loading, an error; alone where nothing is drawn yet
 };
 
@@ -30,14 +36,17 @@ class Overlay {
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  /// Draws into the current framebuffer.
-  void draw(const OverlayText& text);
+  /// Draws into the current framebuffer. Mouse and controls change `look`.
+  void draw(const OverlayText& text, LookSettings& look);
 
  private:
   void newFrame(const OverlayText& text);
-  void layOut(const OverlayText& text);
+  void layOut(const OverlayText& text, LookSettings& look);
+  void drawGraph() const;
 
   GLFWwindow* window_;
+  std::array<float, 120> milliseconds_{};  // of the last frames, a ring
+  std::size_t frame_ = 0;
 };
 
 }  // namespace lucarne

@@ -55,6 +55,8 @@ class PathFrames {
         screen_(options.render.width, options.render.height),
         driver_(driverName()),
         timer_(!isSoftwareDriver(driver_)) {
+    look_.lobe = options.render.lobe;
+    look_.view = options.render.view;
     if (options.overlay) overlay_.emplace(nullptr);
   }
 
@@ -64,7 +66,7 @@ class PathFrames {
       const bool wanted = sink.isWanted(i);
       // The exposure follows from all frames before; of those that are not wanted, from the metered ones.
       if (wanted || EyeAdaptation::meters(i)) drawScene(i);
-      if (EyeAdaptation::meters(i)) eye_.meter(display_.meter(target_));
+      if (EyeAdaptation::meters(i)) eye_.meter(display_.meter(target_, scaleOf(options_.render.view.kind)));
       eye_.pass(1 / options_.fps);
       if (wanted) sink.take(i, finish());
     }
@@ -75,13 +77,18 @@ class PathFrames {
   void drawScene(std::size_t i) {
     start_ = Clock::now();
     timer_.begin();
-    renderer_.draw({cameraOf(path_.at(static_cast<double>(i) / options_.fps), path_.yfov, frame_)},
-                   options_.render.renderer, target_);
+    FrameView view{cameraOf(path_.at(static_cast<double>(i) / options_.fps), path_.yfov, frame_)};
+    view.view = options_.render.view;
+    renderer_.draw(view, options_.render.renderer, target_);
     timer_.end();
   }
 
   std::vector<std::uint8_t> finish() {
-    display_.show(target_, eye_.exposure(), screen_.width, screen_.height, screen_.framebuffer.get());
+    DisplayStyle style;
+    style.scale = scaleOf(options_.render.view.kind);
+    style.exposure = eye_.exposure();
+    style.smoothEdges = look_.smoothEdges;
+    display_.show(target_, style, screen_.width, screen_.height, screen_.framebuffer.get());
     if (overlay_) {
       OverlayText text;
       text.frameSeconds = 1 / options_.fps;
@@ -90,7 +97,9 @@ class PathFrames {
       text.photons = options_.photons;
       text.width = screen_.width;
       text.height = screen_.height;
-      overlay_->draw(text);
+      text.lastFrameSeconds = text.frameSeconds;
+      text.ev100 = ev100OfExposure(static_cast<double>(style.exposure) * static_cast<double>(renderer_.outputScale()));
+      overlay_->draw(text, look_);
     }
     std::vector<std::uint8_t> pixels = screen_.read();
     if (drawn_++ > 0) {  // the first one waits for the shaders
@@ -125,6 +134,7 @@ class PathFrames {
   GpuTimer timer_;
   EyeAdaptation eye_;
   std::optional<Overlay> overlay_;
+  LookSettings look_;
   Clock::time_point start_;
   std::size_t drawn_ = 0;
   std::vector<double> seconds_, gpuSeconds_;

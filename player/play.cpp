@@ -16,7 +16,9 @@
 #include "player/eye_adaptation.h"
 #include "player/folder_watch.h"
 #include "player/gpu_timer.h"
+#include "player/look_tools.h"
 #include "player/overlay.h"
+#include "player/read_back.h"
 #include "player/render_scale.h"
 #include "player/scene_loader.h"
 #include "player/walk_control.h"
@@ -37,13 +39,14 @@ class Session {
   Session(const std::filesystem::path& dlm, const PlayOptions& options, std::optional<WalkPath> path)
       : options_(options),
         path_(std::move(path)),
-        request_{dlm, options.camera, options.render.format, options.render.lobe},
+        request_{dlm, options.camera, options.render.format, options.render.lobe, options.render.gpuMemory},
         window_(options.render.width, options.render.height, options.title),
         overlay_(window_.handle()),
         driver_(driverName()),
         timer_(!isSoftwareDriver(driver_)),
-        scale_(std::clamp(options.renderScale, 0.1, 1.0)),
+        scale_(options.renderScale > 0 ? std::clamp(options.renderScale, 0.1, 1.0) : 1, !(options.renderScale > 0) && !isBenchmark()),
         kind_(options.render.renderer),
+        look_(options.look),
         watch_(dlm) {
     if (isBenchmark()) window_.setVsync(false);
     benchmark_.pathFps = options.fps;
@@ -90,8 +93,12 @@ class Session {
   void takeLoaded() {
     const std::unique_ptr<SceneLoader> loader = std::move(loader_);
     try {
-      shown_ = loader->take();
+      std::unique_ptr<ShownScene> loaded = loader->take();
+      if (tools_) look_ = tools_->settings;
+      tools_.reset();
+      shown_ = std::move(loaded);
       failure_.clear();
+      takeUpLook();
       eye_ = {};  // other maps are exposed as they should be at once
       sinceLoaded_ = 0;
     } catch (const Error& error) {
@@ -105,6 +112,9 @@ class Session {
       return;
     }
     control_ = std::make_unique<WalkControl>(shown_->walk, options_.fly);
+    if (const std::string line = options_.remark ? options_.remark(shown_->dlm->scene, shown_->dlm->maps) : "";
+        !line.empty())
+      logInfo(line);
     const std::string note = options_.fly ? "" : control_->startNote();
     if (!note.empty()) logInfo(note);
     tell(note);
@@ -112,6 +122,18 @@ class Session {
     if (!options_.record.empty()) control_->record();
     benchmark_.loadSeconds = shown_->loadSeconds;
   }
+
+  /// The tools and the sky of what was just loaded.
+  void takeUpLook() {
+    FrameRenderer& renderer = shown_->renderer;
+    if (!shown_->fit.note.empty()) logWarning(shown_->fit.note);
+    look_.view.psi = std::clamp(look_.view.psi, 0, std::max(0, shown_->dlm->maps.directionCount - 1));
+    tools_ = std::make_unique<LookTools>(shown_->dlm->scene, shown_->dlm->maps, options_.sky, renderer.outputScale());
+    tools_->settings = look_;
+    if (!options_.sky.pixels.empty()) renderer.setSky(options_.sky);
+  }
+
+  LookSettings& look() { return tools_ ? tools_->settings : look_; }
 
   void move(double step, const WalkInput& input) {
     if (!isBenchmark()) return control_->advance(step, input);
@@ -141,13 +163,14 @@ class Session {
           kind_ = RendererKind::multipass;
           break;
         case WalkKey::brighter:
-          stops_ += kStopPerKey;
+          look().stops += kStopPerKey;
           break;
         case WalkKey::darker:
-          stops_ -= kStopPerKey;
+          look().stops -= kStopPerKey;
           break;
         case WalkKey::autoExposure:
-          stops_ = 0;
+          look().stops = 0;
+          look().exposureLocked = false;
           break;
         case WalkKey::help:
           help_ = !help_;
@@ -170,11 +193,66 @@ class Session {
 
   /// The target for the window as it is now; made anew only when the size changes.
   const FrameTarget& target(Window::Size size) {
+    const bool exact = scaleOf(look().view.kind) == ViewScale::number;  // may be above what 16 bits hold
     const int width = std::max(1, static_cast<int>(std::lround(size.width * scale_.scale())));
     const int height = std::max(1, static_cast<int>(std::lround(size.height * scale_.scale())));
-    if (!target_ || target_->width != width || target_->height != height)
-      target_ = std::make_unique<FrameTarget>(width, height, false);
+    if (!target_ || target_->width != width || target_->height != height || targetIsExact_ != exact)
+      target_ = std::make_unique<FrameTarget>(width, height, exact);
+    targetIsExact_ = exact;
     return *target_;
+  }
+
+  /// The automatic exposure, unless it is held; another kind of picture is exposed as it should be at once.
+  void adapt(const FrameTarget& frame, double step) {
+    const ViewScale scale = scaleOf(look().view.kind);
+    if (meteredView_ != look().view.kind) {
+      eye_ = {};
+      sinceLoaded_ = 0;
+      meteredView_ = look().view.kind;
+    }
+    if (look().exposureLocked && scale == ViewScale::light && sinceLoaded_ > 0) return;
+    eye_.follow(display_, frame, scale, sinceLoaded_++, step);
+  }
+
+  /// Draws the scene over the window; what there is to say of it.
+  OverlayText drawScene(double step, Window::Size size) {
+    const FrameTarget& frame = target(size);
+    FrameRenderer& renderer = shown_->renderer;
+    handleLookKeys(look(), shown_->dlm->maps.directionCount, window_.takePresses());
+    const bool screenshot = std::exchange(look().screenshot, false);
+    FrameView view{control_->camera()};
+    view.view = look().view;
+    timer_.begin();
+    renderer.setLobe(look().lobe);
+    renderer.draw(view, kind_, frame);
+    timer_.end();
+    adapt(frame, step);
+    tools_->follow(view.camera, frame.width, frame.height);
+    const bool light = scaleOf(look().view.kind) == ViewScale::light;
+    const float exposure = light ? eye_.exposure() * std::exp2(look().stops) : eye_.exposure();
+    display_.show(frame, tools_->style(exposure), size.width, size.height);
+    if (screenshot) savePictures(frame, size);
+    ++frame_;
+    return overlayText(frame, step, exposure);
+  }
+
+  OverlayText overlayText(const FrameTarget& frame, double step, float exposure) const {
+    OverlayText text;
+    text.frameSeconds = smoothedStep_;
+    text.lastFrameSeconds = step;
+    text.gpuSeconds = timer_.seconds();
+    text.renderer = kind_;
+    text.stats = shown_->renderer.stats();
+    text.photons = shown_->photons;
+    text.width = frame.width;
+    text.height = frame.height;
+    text.renderScale = scale_.scale();
+    text.ev100 =
+        ev100OfExposure(static_cast<double>(exposure) * static_cast<double>(shown_->renderer.outputScale()));
+    text.help = help_;
+    text.truth = tools_->truthState();
+    text.found = &tools_->inspection();
+    return text;
   }
 
   void drawFrame(double step) {
@@ -182,25 +260,14 @@ class Session {
     if (window_.isMinimised()) return;
     OverlayText text;
     if (shown_) {
-      const FrameTarget& frame = target(size);
-      timer_.begin();
-      shown_->renderer.draw({control_->camera()}, kind_, frame);
-      timer_.end();
-      eye_.follow(display_, frame, sinceLoaded_++, step);
-      display_.show(frame, eye_.exposure() * std::exp2(stops_), size.width, size.height);
-      text = {smoothedStep_,   timer_.seconds(),
-              kind_,           shown_->renderer.stats(),
-              shown_->photons, frame.width,
-              frame.height,    stops_,
-              help_,           note()};
-      ++frame_;
+      text = drawScene(step, size);
     } else {
       clear(size);
-      text.note = note();
     }
-    overlay_.draw(text);
+    text.note = note();
+    overlay_.draw(text, look());
     if (options_.frames > 0 && frame_ >= static_cast<std::uint64_t>(options_.frames)) window_.close();
-    if (window_.closing() && shown_ && !options_.screenshot.empty()) saveScreenshot(size);
+    if (window_.closing() && shown_ && !options_.screenshot.empty()) saveWindow(options_.screenshot, size);
     window_.swap();
   }
 
@@ -221,7 +288,19 @@ class Session {
     if (timer_.seconds()) benchmark_.gpuSeconds.push_back(*timer_.seconds());
   }
 
-  void saveScreenshot(Window::Size size) const {
+  /// The window without its overlay, and the frame's values, in the folder that the program runs in.
+  void savePictures(const FrameTarget& frame, Window::Size size) const {
+    const std::string base = freePictureName(std::filesystem::current_path()).string();
+    saveWindow(base + ".png", size);
+    ImageRgb image = readBack(frame);
+    if (scaleOf(tools_->settings.view.kind) == ViewScale::light) {
+      for (Rgb& p : image.pixels) p = p / shown_->renderer.outputScale();
+    }
+    writeExrRgb(base + ".exr", image);
+    logInfo("wrote " + base + ".png and .exr");
+  }
+
+  void saveWindow(const std::filesystem::path& path, Window::Size size) const {
     const auto row = static_cast<std::size_t>(size.width) * 3, height = static_cast<std::size_t>(size.height);
     std::vector<std::uint8_t> pixels(row * height), flipped;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
@@ -232,7 +311,7 @@ class Session {
       const auto from = pixels.begin() + static_cast<std::ptrdiff_t>(y * row);
       flipped.insert(flipped.end(), from, from + static_cast<std::ptrdiff_t>(row));
     }
-    writePng(options_.screenshot, size.width, size.height, flipped);
+    writePng(path, size.width, size.height, flipped);
   }
 
   PlayReport finish() {
@@ -263,16 +342,18 @@ class Session {
   GpuTimer timer_;
   RenderScale scale_;
   RendererKind kind_;
+  LookSettings look_;  // before and between scenes; else that of the tools
   FolderWatch watch_;
   Clock::time_point lookedAt_{};
   std::unique_ptr<ShownScene> shown_;
+  std::unique_ptr<LookTools> tools_;  // of shown_
   std::unique_ptr<WalkControl> control_;
   std::unique_ptr<FrameTarget> target_;
   EyeAdaptation eye_;
   std::uint64_t frame_ = 0, sinceLoaded_ = 0;
   double seconds_ = 0, smoothedStep_ = 0, noteSeconds_ = 0;
-  float stops_ = 0;
-  bool help_ = false;
+  ViewKind meteredView_ = ViewKind::full;
+  bool targetIsExact_ = false, help_ = false;
   std::string note_, failure_;
   Benchmark benchmark_;
   std::unique_ptr<SceneLoader> loader_;  // last: it ends before what it shares

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
+#include "base/image_file.h"
+#include "dlm/light_maps.h"
 #include "player/benchmark.h"
+#include "player/look_settings.h"
 #include "player/render_options.h"
+#include "tracer/scene/scene.h"
 
 namespace lucarne {
 
@@ -14,8 +19,12 @@ struct PlayOptions {
   std::string camera;    // as chooseCamera()
   bool fly = false;      // starts flying, exactly at the camera; else on the floor near it, where there is any
   std::string title = "Lucarne";
-  double renderScale = 1;            // drawn pixels per window pixel, each way, 0.1 … 1
-  int frames = 0;                    // > 0: ends after that many
+  double renderScale = 0;  // drawn pixels per window pixel, each way, 0.1 … 1; 0: as many as are fast enough
+  LookSettings look;       // at the start; its view and lobe count, those of `render` do not
+  ImageRgb sky;            // behind the scene and for the truth: equirectangular, cd/m²; may be empty
+  // Asked once the first maps are loaded: a line to be told, or none.
+  std::function<std::string(const Scene&, const LightMaps&)> remark;
+  int frames = 0;          // > 0: ends after that many
   std::filesystem::path screenshot;  // not empty: the last frame with its overlay, as PNG
   std::filesystem::path record;      // not empty: the walk is written there at the end (walk_path.h)
   std::filesystem::path replay;      // not empty: a recorded walk leads the camera, until a key moves it

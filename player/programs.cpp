@@ -20,6 +20,9 @@ Names fragmentFiles(PassKind pass) {
       return {"surface.glsl", "compose.glsl", "compose_pass.glsl"};
     case PassKind::view:
       return {"surface.glsl", "cells.glsl", "members.glsl", "compose.glsl", "view_pass.glsl"};
+    case PassKind::mask:
+      return {"surface.glsl", "mask_pass.glsl"};
+    case PassKind::clear:
     case PassKind::singlepass:
       break;
   }
@@ -37,6 +40,17 @@ void setConstants(GLuint program, const ProgramConstants& c) {
   glProgramUniform2i(program, at("cellTableShape"), c.cellTableNodes, c.cellTableLayers);
 }
 
+/// What makes a difference to the shaders of a pass.
+ShaderVariant relevant(ShaderVariant variant, PassKind pass) {
+  variant.clear = variant.masked = false;
+  if (pass == PassKind::mask) return {.textured = variant.textured};
+  if (pass == PassKind::compose || pass == PassKind::view) variant.curved = variant.even = false;
+  if (pass == PassKind::view || pass == PassKind::direction || pass == PassKind::clear) variant.lambert = false;
+  if (pass == PassKind::direction) variant.even = false;
+  if (variant.even) variant.curved = false;
+  return variant;
+}
+
 }  // namespace
 
 Programs::Programs(const ProgramConstants& constants)
@@ -44,15 +58,19 @@ Programs::Programs(const ProgramConstants& constants)
       prepass_(build("prepass", {"camera.glsl", "prepass_vertex.glsl"}, {"prepass_fragment.glsl"})) {}
 
 const ShadingProgram& Programs::shading(PassKind pass, ShaderVariant variant) {
-  if (pass == PassKind::compose || pass == PassKind::view) variant.curved = false;  // they look at no cells
-  const auto key = std::pair(pass, variant);
+  variant = relevant(variant, pass);
+  const auto key = std::tuple(constants_.lobe, pass, variant);
   const auto found = shading_.find(key);
   if (found != shading_.end()) return found->second;
 
   std::vector<std::string> defines;
   if (variant.curved) defines.emplace_back("CURVED");
   if (variant.textured) defines.emplace_back("TEXTURED");
+  if (variant.relief) defines.emplace_back("RELIEF");
+  if (variant.even) defines.emplace_back("EVEN");
+  if (variant.lambert) defines.emplace_back("LAMBERT");
   if (pass == PassKind::view) defines.emplace_back("VIEW");
+  if (pass == PassKind::clear) defines.emplace_back("CLEAR");
   if (constants_.lobe == LobeKind::barsi) defines.emplace_back("LOBE_BARSI");
   if (constants_.lobe == LobeKind::sample) defines.emplace_back("LOBE_SAMPLE");
   const Names files = fragmentFiles(pass);

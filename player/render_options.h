@@ -33,7 +33,8 @@ struct RenderOptions {
   LightMapFormat format = LightMapFormat::half;
   LobeKind lobe = LobeKind::cell;
   View view{};
-  int supersamples = 1;  // pictures without a window: so many samples a pixel, each way
+  std::uint64_t gpuMemory = 0;  // bytes for light maps; 0: what the driver says is free
+  int supersamples = 1;         // pictures without a window: so many samples a pixel, each way
 };
 
 /// State changes of one frame.
@@ -46,11 +47,12 @@ struct StateCounts {
 
 struct RenderStats {
   StateCounts counts;
-  StateCounts unsorted;             // the same frame drawn chart by chart, direction by direction, nothing remembered
-  std::uint64_t textureBytes = 0;   // light maps, tables and material textures
-  std::uint64_t lightMapBytes = 0;  // of them the directional maps
-  int directions = 0;               // |Ω|
-  std::string driver;               // GL_RENDERER
+  StateCounts unsorted;  // the same frame drawn chart by chart, direction by direction, nothing remembered
+  std::uint64_t charts = 0, visibleCharts = 0;  // runs of triangles of one chart; of them those that may be in sight
+  std::uint64_t textureBytes = 0;               // light maps, tables and material textures
+  std::uint64_t lightMapBytes = 0;              // of them the directional maps
+  int directions = 0;                           // |Ω|
+  std::string driver;                           // GL_RENDERER
   double loadSeconds = 0, frameSeconds = 0;
 };
 

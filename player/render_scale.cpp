@@ -10,6 +10,7 @@ constexpr double kSlowest = 1.0 / 20, kFastEnough = 1.0 / 40, kRest = 0.3;  // s
 }  // namespace
 
 void RenderScale::update(double frameSeconds, bool moving) {
+  if (!adaptive_) return;
   stillSeconds_ = moving ? 0 : stillSeconds_ + frameSeconds;
   if (!moving) {
     if (stillSeconds_ > kRest) scale_ = full_;

@@ -5,8 +5,8 @@ namespace lucarne {
 
 class RenderScale {
  public:
-  /// `full`: the scale when standing, 0.5 … 1 or below if asked for.
-  explicit RenderScale(double full) : full_(full), scale_(full) {}
+  /// `full`: the scale when standing, or always if not `adaptive`.
+  explicit RenderScale(double full, bool adaptive = true) : full_(full), scale_(full), adaptive_(adaptive) {}
 
   double scale() const { return scale_; }
   /// To be told once a frame. Never below half of the full scale.
@@ -14,6 +14,7 @@ class RenderScale {
 
  private:
   double full_, scale_, stillSeconds_ = 0;
+  bool adaptive_;
 };
 
 }  // namespace lucarne

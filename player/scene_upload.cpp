@@ -28,6 +28,8 @@ GlVertexArray vertexLayout(const GlBuffer& vertices) {
     ++index;
   }
   glVertexArrayAttribIFormat(name, index, 2, GL_UNSIGNED_INT, offsetof(GpuVertex, frontSide));
+  ++index;
+  glVertexArrayAttribFormat(name, index, 4, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, tangent));
   for (GLuint i = 0; i <= index; ++i) {
     glVertexArrayAttribBinding(name, i, 0);
     glEnableVertexArrayAttrib(name, i);
@@ -63,7 +65,6 @@ GlBuffer uploadMaterials(const Scene& scene) {
 
 GpuScene::GpuScene(const Scene& scene, const LightMaps& maps) : list(buildDrawList(scene, maps)), textures(scene) {
   vertices = makeBuffer(std::span<const GpuVertex>(list.vertices));
-  vertexCount = static_cast<GLsizei>(list.vertices.size());
   list.vertices = {};
   materials = uploadMaterials(scene);
   specularTable = uploadSpecularTable();

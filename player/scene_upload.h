@@ -18,7 +18,6 @@ struct GpuScene {
   SceneTextures textures;
   GlBuffer vertices, materials;
   GlTexture specularTable;
-  GLsizei vertexCount = 0;
 
  private:
   GlVertexArray layout_;

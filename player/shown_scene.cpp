@@ -30,15 +30,20 @@ float windowScale(const Scene& scene, const LightMaps& maps) {
 
 std::unique_ptr<ShownScene> loadScene(const SceneRequest& request, const LoadObserver& observe) {
   const Clock::time_point start = Clock::now();
-  const Dlm dlm = readDlm(request.dlm, [&](const std::string& step, double share) { observe(step, kReading * share); });
+  auto read = std::make_unique<const Dlm>(
+      readDlm(request.dlm, [&](const std::string& step, double share) { observe(step, kReading * share); }));
+  const Dlm& dlm = *read;
   observe("sorting the triangles", kReading);
   auto walk = std::make_shared<const WalkScene>(dlm.scene, chooseCamera(dlm.scene, request.camera));
   observe("sending the maps to the GPU", kSorting);
-  FrameRenderer renderer(dlm.scene, dlm.maps, request.format, windowScale(dlm.scene, dlm.maps), request.lobe);
+  MapFit fit = fitMaps(dlm.maps, request.format, request.gpuMemory > 0 ? request.gpuMemory : freeGpuMemory(), textureLimits());
+  FrameRenderer renderer(dlm.scene, fit.fewer ? *fit.fewer : dlm.maps, fit.format, windowScale(dlm.scene, dlm.maps), request.lobe);
   glFinish();
+  fit.fewer.reset();  // they are on the GPU
+  const double photons = photonsOf(dlm.manifest);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return std::make_unique<ShownScene>(
-      ShownScene{std::move(renderer), std::move(walk), photonsOf(dlm.manifest), seconds});
+      ShownScene{std::move(read), std::move(fit), std::move(renderer), std::move(walk), photons, seconds});
 }
 
 }  // namespace lucarne

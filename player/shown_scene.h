@@ -5,12 +5,16 @@
 #include <functional>
 #include <memory>
 
+#include "dlm/dlm_reader.h"
 #include "player/frame_renderer.h"
+#include "player/map_fit.h"
 #include "player/walk_control.h"
 
 namespace lucarne {
 
 struct ShownScene {
+  std::unique_ptr<const Dlm> dlm;  // that the tools ask
+  MapFit fit;
   FrameRenderer renderer;
   std::shared_ptr<const WalkScene> walk;
   double photons;  // of the bake; 0: not known
@@ -25,6 +29,7 @@ struct SceneRequest {
   std::string camera;  // as chooseCamera()
   LightMapFormat format = LightMapFormat::half;
   LobeKind lobe = LobeKind::cell;
+  std::uint64_t gpuMemory = 0;  // bytes that the light maps may take there; 0: what is free
 };
 
 /// Told before each step of loading; what it throws ends the loading.

@@ -6,36 +6,54 @@ namespace {
 /// One draw a batch.
 class OnePass : public MapRenderer {
  public:
-  OnePass(const DrawList& list, PassKind pass) : pass_(pass) {
-    unsorted_.draws = unsorted_.materialSwitches = list.runs.size();
-    for (const Batch& b : list.batches) unsorted_.textureSwitches += b.variant.textured ? 3 * b.runCount : 0;
-  }
+  explicit OnePass(PassKind pass) : pass_(pass) {}
 
   void shade(const DrawContext& c, const FrameTarget& target, DrawState& state) override {
     glBindFramebuffer(GL_FRAMEBUFFER, target.shading.get());
     for (const Batch& batch : c.scene.list.batches) {
-      state.useProgram(c.programs.shading(pass_, batch.variant));
-      state.useMaterial(batch.material, batch.variant.textured ? &c.scene.textures.of(batch.material) : nullptr);
-      glDrawArrays(GL_TRIANGLES, static_cast<GLint>(batch.firstVertex), static_cast<GLsizei>(batch.vertexCount));
-      state.countDraw();
+      if (!batch.variant.clear || pass_ == PassKind::view) drawBatch(c, pass_, batch, ranges_, state);
     }
   }
 
-  StateCounts unsorted() const override { return unsorted_; }
+  StateCounts unsorted(const DrawContext& c) const override {
+    StateCounts counts;
+    for (const Batch& batch : c.scene.list.batches) {
+      for (std::uint32_t r = batch.firstRun; r < batch.endRun(); ++r) {
+        if (c.visible[r] == 0) continue;
+        ++counts.draws;
+        ++counts.materialSwitches;
+        counts.textureSwitches += texturesOf(batch.variant);
+      }
+    }
+    return counts;
+  }
 
  private:
   PassKind pass_;
-  StateCounts unsorted_;
+  VertexRanges ranges_;
 };
 
 }  // namespace
 
-std::unique_ptr<MapRenderer> makeSinglepass(const DrawList& list) {
-  return std::make_unique<OnePass>(list, PassKind::singlepass);
+void useBatch(const DrawContext& c, PassKind pass, const Batch& batch, DrawState& state) {
+  state.useProgram(c.programs.shading(pass, batch.variant));
+  state.useMaterial(batch.material, texturesOf(batch.variant) > 0 ? &c.scene.textures.of(batch.material) : nullptr);
 }
 
-std::unique_ptr<MapRenderer> makeViewRenderer(const DrawList& list) {
-  return std::make_unique<OnePass>(list, PassKind::view);
+void drawBatch(const DrawContext& c, PassKind pass, const Batch& batch, VertexRanges& scratch, DrawState& state) {
+  scratch.reset();
+  for (std::uint32_t r = batch.firstRun; r < batch.endRun(); ++r) {
+    const ChartRun& run = c.scene.list.runs[r];
+    if (c.visible[r] != 0) scratch.add(run.firstVertex, run.vertexCount);
+  }
+  if (scratch.empty()) return;
+  useBatch(c, pass, batch, state);
+  scratch.draw();
+  state.countDraw();
 }
+
+std::unique_ptr<MapRenderer> makeSinglepass() { return std::make_unique<OnePass>(PassKind::singlepass); }
+
+std::unique_ptr<MapRenderer> makeViewRenderer() { return std::make_unique<OnePass>(PassKind::view); }
 
 }  // namespace lucarne

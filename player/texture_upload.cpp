@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "base/error.h"
+#include "player/gl_context.h"
 
 namespace lucarne {
 namespace {
@@ -19,15 +20,24 @@ GLint wrapMode(Wrap wrap) {
   return GL_REPEAT;
 }
 
+/// Software drivers pay dearly for each sample along the way.
+float usefulAnisotropy() {
+  if (!epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return 1;
+  GLfloat largest = 1;
+  glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &largest);
+  return std::min(largest, isSoftwareDriver(driverName()) ? 1.f : 8.f);
+}
+
 }  // namespace
 
-SceneTextures::SceneTextures(const Scene& scene) {
+SceneTextures::SceneTextures(const Scene& scene) : anisotropy_(usefulAnisotropy()) {
   white_ = makeTexture({GL_TEXTURE_2D, GL_RGBA8, 1, 1, 1, 1});
   const std::uint32_t one = 0xffffffffu;
   glTextureSubImage2D(white_.get(), 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, &one);
   for (const Material& m : scene.materials) {
     byMaterial_.push_back({upload(scene, m.baseColorTexture, true), upload(scene, m.metallicRoughnessTexture, false),
-                           m.emits() ? upload(scene, m.emissiveTexture, true) : white_.get()});
+                           m.emits() ? upload(scene, m.emissiveTexture, true) : white_.get(),
+                           upload(scene, m.normalTexture, false)});
   }
 }
 
@@ -51,6 +61,7 @@ GLuint SceneTextures::upload(const Scene& scene, const TextureUse& use, bool srg
   glTextureParameteri(texture.get(), GL_TEXTURE_WRAP_T, wrapMode(source.wrapT));
   glTextureParameteri(texture.get(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(texture.get(), GL_TEXTURE_MAG_FILTER, source.nearest ? GL_NEAREST : GL_LINEAR);
+  if (anisotropy_ > 1) glTextureParameterf(texture.get(), GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy_);
   bytes_ += static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height) * 16 / 3;
   return textures_.emplace(std::pair(use.texture, srgb), std::move(texture)).first->second.get();
 }

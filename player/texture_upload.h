@@ -13,12 +13,13 @@ namespace lucarne {
 
 /// Texture names for one material; untextured slots hold a white texel.
 struct MaterialTextures {
-  GLuint baseColor = 0, metallicRoughness = 0, emissive = 0;
+  GLuint baseColor = 0, metallicRoughness = 0, emissive = 0, normal = 0;
 };
 
 class SceneTextures {
  public:
-  /// Only what materials use. With mipmaps; sRGB ones are decoded before filtering. Needs a current context.
+  /// Only what materials use. With mipmaps, and anisotropic filters where the driver has them; sRGB ones are decoded
+  /// before filtering. Needs a current context.
   explicit SceneTextures(const Scene& scene);
 
   const MaterialTextures& of(std::uint32_t material) const { return byMaterial_[material]; }
@@ -27,6 +28,7 @@ class SceneTextures {
  private:
   GLuint upload(const Scene& scene, const TextureUse& use, bool srgb);
 
+  float anisotropy_;
   GlTexture white_;
   std::map<std::pair<std::uint32_t, bool>, GlTexture> textures_;  // (texture, sRGB)
   std::vector<MaterialTextures> byMaterial_;

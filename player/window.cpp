@@ -4,6 +4,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <imgui/imgui.h>
 
 #include <cstdlib>
 #include <utility>
@@ -87,6 +88,7 @@ void Window::poll(double waitSeconds) {
 
 void Window::setVsync(bool wait) { glfwSwapInterval(wait ? 1 : 0); }
 std::vector<WalkKey> Window::takeKeys() { return std::exchange(keys_, {}); }
+std::vector<KeyPress> Window::takePresses() { return std::exchange(presses_, {}); }
 bool Window::closing() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 void Window::swap() { glfwSwapBuffers(window_); }
@@ -121,9 +123,10 @@ void Window::holdMouse(bool hold) {
   mouseKnown_ = false;  // the cursor may have been moved by the change
 }
 
-void Window::onKey(GLFWwindow* window, int key, int, int action, int) {
+void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
   if (action != GLFW_PRESS) return;
   auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+  self.presses_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0});
   switch (key) {
     case GLFW_KEY_ESCAPE:
       if (self.mouseHeld_) {
@@ -178,7 +181,9 @@ void Window::onScroll(GLFWwindow* window, double, double y) {
   static_cast<Window*>(glfwGetWindowUserPointer(window))->keys_.push_back(y > 0 ? WalkKey::faster : WalkKey::slower);
 }
 
-void Window::onButton(GLFWwindow* window, int, int action, int) {
+void Window::onButton(GLFWwindow* window, int button, int action, int) {
+  const bool forControls = ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().WantCaptureMouse;
+  if (forControls || button != GLFW_MOUSE_BUTTON_LEFT) return;
   if (action == GLFW_PRESS) static_cast<Window*>(glfwGetWindowUserPointer(window))->holdMouse(true);
 }
 

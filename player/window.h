@@ -7,6 +7,7 @@
 
 #include "player/gamepad.h"
 #include "player/gl_context.h"
+#include "player/key_press.h"
 #include "player/walk_input.h"
 #include "player/walk_key.h"
 
@@ -35,6 +36,8 @@ class Window {
   void setVsync(bool wait);
   /// Keys pressed since the last call, in order.
   std::vector<WalkKey> takeKeys();
+  /// Every key pressed since the last call, those of takeKeys() too: however long a frame takes, none is missed.
+  std::vector<KeyPress> takePresses();
   /// Held keys, the mouse's way since the last call, and the first gamepad. The mouse turns the head while it is held
   /// by the window: click to hold it, Esc lets go.
   WalkInput takeWalk();
@@ -70,6 +73,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   std::unique_ptr<GlMessages> messages_;
   std::vector<WalkKey> keys_;
+  std::vector<KeyPress> presses_;
   bool mouseHeld_ = false, mouseKnown_ = false;
   double mouseX_ = 0, mouseY_ = 0;
   double lastTaken_ = 0;  // seconds

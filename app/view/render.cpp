@@ -4,6 +4,7 @@
 
 #include "app/bake_environment.h"
 #include "app/bake_scene.h"
+#include "app/view/shown_otherwise.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/image_file.h"
@@ -20,9 +21,11 @@ namespace lucarne {
 
 namespace {
 
-ImageRgb drawn(const RenderJob& job, RenderStats& stats) {
+ImageRgb drawn(const RenderJob& job, RenderStats& stats, std::string& otherwise) {
   const Dlm dlm = readDlm(job.dlm);
-  return renderImage(dlm.scene, dlm.maps, chooseCamera(dlm.scene, job.camera), job.options, &stats);
+  const ImageRgb sky = loadSky(job.sky);
+  otherwise = shownOtherwise(dlm.scene, dlm.maps);
+  return renderImage(dlm.scene, dlm.maps, chooseCamera(dlm.scene, job.camera), job.options, &stats, &sky);
 }
 
 /// Of a scene, or of the one that light maps were made of.
@@ -61,7 +64,7 @@ RenderReport render(const RenderJob& job) {
     throw UsageError("--view " + std::string(nameOf(job.options.view.kind)) +
                      " shows light maps; the path tracer has none");
   RenderReport report;
-  const ImageRgb image = traced ? pathTraced(job, report.stats) : drawn(job, report.stats);
+  const ImageRgb image = traced ? pathTraced(job, report.stats) : drawn(job, report.stats, report.otherwise);
   if (ending == ".exr") {
     writeExrRgb(job.output, image);
   } else {

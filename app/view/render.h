@@ -12,7 +12,8 @@ namespace lucarne {
 
 struct RenderJob {
   std::filesystem::path dlm, output;  // .exr: linear cd/m², no exposure; .png: auto exposure, tone map, sRGB
-  // Of path-traced pictures: paths a pixel, and the sky that light maps do not keep. `dlm` may be a scene then.
+  // The sky, which light maps do not keep: behind the scene, and of path-traced pictures their light. Of those also the
+  // paths a pixel; `dlm` may be a scene then.
   std::uint32_t samples = 64;
   BakeOptions sky;
   std::string camera;  // name or index; empty: the first, or one that sees the scene
@@ -22,7 +23,8 @@ struct RenderJob {
 
 struct RenderReport {
   RenderStats stats;
-  std::string scale;  // DisplayedImage::scale of .png
+  std::string scale;      // DisplayedImage::scale of .png
+  std::string otherwise;  // shownOtherwise()
 };
 
 /// Renders and writes the picture. UsageError for an unknown camera or ending.

@@ -1,10 +1,26 @@
+#include <cstdio>
+
 #include "app/view/walk.h"
+#include "base/error.h"
 #include "base/log.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/layout_options.h"
 #include "cli/view/render_arguments.h"
 
 namespace lucarne {
+
+namespace {
+
+void applyScale(const std::string& scale, PlayOptions& options) {
+  if (scale == "auto") return;
+  char rest = 0;
+  if (std::sscanf(scale.c_str(), "%lf%c", &options.renderScale, &rest) != 1 || !(options.renderScale >= 0.1) ||
+      !(options.renderScale <= 1))
+    throw UsageError("--scale must be auto or a number from 0.1 to 1, not '" + scale + "'");
+}
+
+}  // namespace
 
 void addPlay(CLI::App& app, Action& action) {
   CLI::App* cmd = app.add_subcommand("play", "walk through light maps in a window (mouse, W A S D; H shows the keys)");
@@ -15,9 +31,21 @@ void addPlay(CLI::App& app, Action& action) {
   cmd->add_option("--camera", options->camera, "name or number (from 0) of the camera to start at");
   cmd->add_flag("--fly", options->fly, "start flying, exactly at the camera, not on the floor near it");
   addRenderArguments(*cmd, options->render, *size, false);
-  cmd->add_option("--scale", options->renderScale, "drawn pixels per window pixel, each way: lower is faster")
-      ->check(CLI::Range(0.1, 1.0))
+  addViewArguments(*cmd, options->render.view);
+  addToneCurve(*cmd, options->look.curve);
+  const auto scale = std::make_shared<std::string>("auto");
+  cmd->add_option(
+         "--scale", *scale,
+         "drawn pixels per window pixel, each way: lower is faster; auto: 1, and down to 0.5 while walking on a slow "
+         "machine")
       ->capture_default_str();
+  cmd->add_flag("--compare", options->look.compare, "show the path-traced truth beside the light maps (key K)");
+  cmd->add_flag_callback(
+      "--sharp-edges", [options] { options->look.smoothEdges = false; }, "do not smooth edges (key M)");
+  cmd->add_flag("--panel", options->look.panel, "show the controls (key Tab)");
+  const auto sky = std::make_shared<BakeOptions>();
+  const auto environment = std::make_shared<std::string>();
+  addSkyOptions(*cmd, *sky, *environment);
   cmd->add_option("--frames", options->frames, "end after that many frames; 0: when the window is closed")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -33,7 +61,9 @@ void addPlay(CLI::App& app, Action& action) {
   cmd->callback([=, &action] {
     action = [=] {
       applySize(*size, options->render);
-      const PlayReport report = walk(*dlm, *options);
+      applyScale(*scale, *options);
+      finishSky(*sky, *environment);
+      const PlayReport report = walk(*dlm, *options, *sky);
       logInfo(std::to_string(report.frames) + " frames in " + formatDuration(report.seconds));
     };
   });

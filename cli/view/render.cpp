@@ -13,6 +13,7 @@ namespace {
 void report(const RenderJob& job, const RenderReport& made) {
   const RenderStats& stats = made.stats;
   if (!made.scale.empty()) logInfo(std::string(nameOf(job.options.view.kind)) + ": " + made.scale);
+  if (!made.otherwise.empty()) logInfo(made.otherwise);
   if (job.options.renderer == RendererKind::pathtraced) {
     logInfo("wrote " + job.output.string() + " with " + stats.driver + " in " + formatDuration(stats.frameSeconds));
     return;

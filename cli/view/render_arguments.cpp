@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "cli/choices.h"
 
 namespace lucarne {
@@ -20,6 +21,11 @@ void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size
       cmd, "--map-format", options.format,
       {{"half", LightMapFormat::half}, {"rgb9e5", LightMapFormat::rgb9e5}, {"float", LightMapFormat::float32}}, "half",
       "light maps on the GPU: half, rgb9e5 (half the memory) or float (exact)");
+  cmd.add_option_function<std::string>(
+         "--gpu-memory", [&options](const std::string& text) { options.gpuMemory = parseBytes("--gpu-memory", text); },
+         "bytes that light maps may take on the GPU, like 512M: more of them are shown in a smaller format, then with "
+         "fewer directions; none: what the driver says is free")
+      ->type_name("SIZE");
   addChoice<LobeKind>(cmd, "--lobe", options.lobe,
                       {{"cell", LobeKind::cell}, {"barsi", LobeKind::barsi}, {"sample", LobeKind::sample}}, "cell",
                       "highlights: cell: the lobe averaged over each direction's cell and normalised; to compare with "

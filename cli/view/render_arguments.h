@@ -10,8 +10,8 @@
 
 namespace lucarne {
 
-/// Adds --size, --renderer, --map-format and --lobe. `size` is parsed by applySize() when the command runs.
-/// `pathtraced` is among the renderers only where asked for.
+/// Adds --size, --renderer, --map-format, --gpu-memory and --lobe. `size` is parsed by applySize() when the command
+/// runs. `pathtraced` is among the renderers only where asked for.
 void addRenderArguments(CLI::App& cmd, RenderOptions& options, std::string& size, bool withPathTracer);
 
 /// --view and --psi.

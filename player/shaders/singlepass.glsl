@@ -1,34 +1,59 @@
 
+// Each fragment goes through its side's list; also what is composed over what lies behind it (CLEAR): blended surfaces and
+// glass.
+#ifdef CLEAR
+layout(location = 0, index = 0) out vec4 color;
+layout(location = 0, index = 1) out vec4 passed;  // share of what is behind
+#else
 layout(location = 0) out vec4 color;
+#endif
 
 // Stored maps come first in a side's list, in the order of their layers; then the empty ones, which only count as members.
-vec4 lobeSums(Side side, Material m, vec3 n) {
+void addLight(inout LightSums sums, vec4 light, vec4 cell, float width, vec3 r, vec3 n, vec3 mapped) {
+  sums.lobe += light * lobeWeight(width, r, cell.xyz, mapped);
+#ifdef RELIEF
+  sums.relief += light * reliefWeight(n, mapped, cell.xyz);
+#endif
+}
+
+LightSums lightSums(Side side, Material m, vec3 mapped) {
+  LightSums sums = LightSums(vec4(0), vec4(0));
+#ifndef EVEN
   float width = lobeWidth(materialAlpha(m));
-  vec3 r = mirrorDirection(n);
+  vec3 n = interpolatedNormal(), r = mirrorDirection(mapped);
   vec2 node = octahedral(n);
   vec2 pageSize = vec2(textureSize(maps, 0).xy);
   vec2 texel = side.mapOrigin + texelPosition(side);
   uint stored = side.stored, perStrip = uint(layersPerStrip);
-  vec4 sum = vec4(0);
   for (uint start = 0u; start < stored; start += perStrip, texel.x += side.size.x) {
     uint count = min(perStrip, stored - start);
     vec2 page = texel / pageSize;
     for (uint k = 0u; k < count; ++k) {
       vec4 cell = cellAt(side.firstCell + start + k, node);
-      sum += vec4(mapValue(page, side.firstLayer + k), cell.w) * lobeWeight(width, r, cell.xyz, n);
+      addLight(sums, vec4(mapValue(page, side.firstLayer + k), cell.w), cell, width, r, n, mapped);
     }
   }
   for (uint k = stored; k < side.members; ++k) {
     vec4 cell = cellAt(side.firstCell + k, node);
-    sum.a += cell.w * lobeWeight(width, r, cell.xyz, n);
+    addLight(sums, vec4(0, 0, 0, cell.w), cell, width, r, n, mapped);
   }
-  return sum;
+#endif
+  return sums;
 }
 
 void main() {
   Side side = visibleSide();
   Material m = materials[materialIndex];
-  vec3 n = shadingNormal();
-  color = vec4(outgoingRadiance(side, m, n, lobeSums(side, m, n)) * outputScale, 1);
+  vec3 n = shadingNormal(m);
+  vec3 radiance = outgoingRadiance(side, m, n, lightSums(side, m, n)) * outputScale;
+#ifdef CLEAR
+  vec3 behind = transmitted(m, n);
+  float share = coverage(m);
+  color = vec4(radiance * share, 1);
+  passed = vec4(1.0 - share + share * behind, 1);
+  if (m.more.z < 0.0 && !gl_FrontFacing) discard;
+#else
+  color = vec4(radiance, 1);
   if (!ownsPixel()) discard;
+#endif
 }

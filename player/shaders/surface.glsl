@@ -8,6 +8,9 @@ in Vertex {
   vec4 uv;
   vec2 chartUv;
   flat uvec2 sides;
+#ifdef RELIEF
+  vec4 tangent;
+#endif
 #ifdef VIEW
   vec3 corner;  // barycentric coordinates
 #endif
@@ -23,9 +26,11 @@ const uint kPresent = 1u, kLit = 2u, kDirections = 4u;
 
 struct Material {
   vec4 baseColorMetallic, emissiveRoughness, specularColorFactor;
-  vec4 dielectric;  // x: ((ior−1)/(ior+1))²
-  vec4 linear[3];   // texture transforms: rowU, rowV of base colour, metallic-roughness, emission
-  vec4 offset[3];   // xy: offset, z: 1 for texture coordinate set 1
+  // ((ior−1)/(ior+1))²; alpha, below 0: it does not count; cutoff of masks, below 0: only the front is there; scale of the
+  // normal map.
+  vec4 more;
+  vec4 linear[4];   // texture transforms: rowU, rowV of base colour, metallic-roughness, emission, normal map
+  vec4 offset[4];   // xy: offset, z: 1 for texture coordinate set 1, w of the first: transmission
 };
 
 layout(std430, binding = 0) readonly buffer SideBlock { Side sideRecords[]; };
@@ -36,6 +41,9 @@ layout(binding = 3) uniform sampler2D specularTable;  // at x: cosθ, y: √α: 
 layout(binding = 4) uniform sampler2D baseColorTexture;
 layout(binding = 5) uniform sampler2D metallicRoughnessTexture;
 layout(binding = 6) uniform sampler2D emissiveTexture;
+#endif
+#ifdef RELIEF
+layout(binding = 10) uniform sampler2D normalTexture;
 #endif
 layout(binding = 8) uniform usampler2D ownerImage;
 
@@ -53,10 +61,7 @@ bool ownsPixel() { return texelFetch(ownerImage, ivec2(gl_FragCoord.xy), 0).r ==
 uint visibleRecord() { return gl_FrontFacing ? v.sides.x : v.sides.y; }
 Side visibleSide() { return sideRecords[visibleRecord()]; }
 
-// Shading normal on the visible side.
-vec3 shadingNormal() { return normalize(gl_FrontFacing ? v.normal : -v.normal); }
-
-#ifdef TEXTURED
+#if defined(TEXTURED) || defined(RELIEF)
 // Derivatives are taken of the attributes alone: a pixel beyond the edge of its triangle, there only for its neighbours'
 // derivatives, may read zeros from buffers (llvmpipe), and what it makes of `m` is then wrong.
 vec4 materialTexel(sampler2D image, Material m, int use) {
@@ -67,6 +72,42 @@ vec4 materialTexel(sampler2D image, Material m, int use) {
   return textureGrad(image, linear * uv + m.offset[use].xy, linear * ux, linear * uy);
 }
 #endif
+
+// Interpolated normal on the visible side: what the light of the maps was received with.
+vec3 interpolatedNormal() { return normalize(gl_FrontFacing ? v.normal : -v.normal); }
+
+// The normal that the eye sees. Tangent space is that of the front; the vector turns round with it on the back.
+vec3 shadingNormal(Material m) {
+  vec3 n = interpolatedNormal();
+#ifdef RELIEF
+  vec3 front = normalize(v.normal);
+  vec3 tangent = v.tangent.xyz - front * dot(front, v.tangent.xyz);
+  tangent = normalize(tangent);
+  vec3 texel = materialTexel(normalTexture, m, 3).xyz * 2.0 - 1.0;
+  texel.xy *= m.more.w;
+  vec3 mapped = tangent * texel.x + cross(front, tangent) * (v.tangent.w < 0.0 ? -texel.y : texel.y) + front * texel.z;
+  if (!(dot(mapped, mapped) > 0.0)) return n;
+  mapped = normalize(gl_FrontFacing ? mapped : -mapped);
+  float c = dot(mapped, n);
+  return c >= 0.01 ? mapped : normalize(mapped + n * (0.01 - c));
+#else
+  return n;
+#endif
+}
+
+// What a normal map makes of the light of a cell with mean direction `d`: received by it, over received by the normal of
+// the maps. Grazing light is not made more than ten times as much.
+float reliefWeight(vec3 n, vec3 mapped, vec3 d) { return max(dot(mapped, d), 0.0) / max(dot(n, d), 0.1); }
+
+// Share of the pixel that the surface covers.
+float coverage(Material m) {
+  float alpha = m.more.y;
+#ifdef TEXTURED
+  alpha *= materialTexel(baseColorTexture, m, 0).a;
+#endif
+  if (m.more.y < 0.0) return 1.0;
+  return m.more.z > 0.0 ? (alpha < m.more.z ? 0.0 : 1.0) : clamp(alpha, 0.0, 1.0);
+}
 
 float materialAlpha(Material m) {
   float roughness = m.emissiveRoughness.w;

@@ -37,7 +37,7 @@ vec3 wired(vec3 albedo) {
   return mix(vec3(0.9, 0.95, 0.3), 0.35 * albedo, min(near.x, min(near.y, near.z)));
 }
 
-vec3 viewed(Side side, Material m, vec3 n) {
+vec3 viewed(Side side, Material m) {
   vec3 albedo = m.baseColorMetallic.rgb;
 #ifdef TEXTURED
   albedo *= materialTexel(baseColorTexture, m, 0).rgb;
@@ -45,7 +45,7 @@ vec3 viewed(Side side, Material m, vec3 n) {
   if (view.x == kWireframe) return wired(albedo);
   if (view.x == kAlbedo) return albedo;
   if (view.x == kCharts) return colourOf(v.sides.x);
-  if (view.x > kAlbedo) return 0.5 * n + 0.5;
+  if (view.x > kAlbedo) return 0.5 * shadingNormal(m) + 0.5;
   float density = texelsPerMetre(side);
   if ((side.flags & kLit) == 0u) return vec3(0);
   if (view.x == kDensity) return vec3(density);
@@ -57,6 +57,6 @@ vec3 viewed(Side side, Material m, vec3 n) {
 }
 
 void main() {
-  color = vec4(viewed(visibleSide(), materials[materialIndex], shadingNormal()), 1);
+  color = vec4(viewed(visibleSide(), materials[materialIndex]), 1);
   if (!ownsPixel()) discard;
 }

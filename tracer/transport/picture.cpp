@@ -5,31 +5,13 @@
 #include <tbb/task_arena.h>
 
 #include <atomic>
-#include <cmath>
 #include <mutex>
 
 #include "base/float_mode.h"
+#include "tracer/transport/pinhole.h"
 
 namespace lucarne {
 namespace {
-
-/// Directions of a pinhole camera through places of the picture.
-class Pinhole {
- public:
-  Pinhole(const Camera& camera, int width, int height)
-      : camera_(camera), width_(width), height_(height), top_(std::tan(0.5 * camera.yfov)) {}
-  RayStart through(double x, double y) const {
-    const double aspect = static_cast<double>(width_) / height_;
-    const Vec3d d = camera_.right * ((2 * x / width_ - 1) * top_ * aspect) +
-                    camera_.up * ((1 - 2 * y / height_) * top_) - camera_.back;
-    return {Vec3f(camera_.position), Vec3f(normalize(d)), kNone};
-  }
-
- private:
-  const Camera& camera_;
-  int width_, height_;
-  double top_;
-};
 
 Rgb pixelOf(const PathTracer& paths, const Pinhole& camera, int x, int y, std::uint64_t pixel,
             const PictureOptions& options) {
