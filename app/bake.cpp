@@ -13,14 +13,14 @@
 #include "app/bake_resume.h"
 #include "app/bake_trace.h"
 #include "app/load_scene.h"
+#include "app/plan_file.h"
+#include "app/report_writing.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/system.h"
 #include "base/units.h"
 #include "distributed/bake_job.h"
-#include "distributed/build_info.h"
 #include "distributed/mpi_job.h"
-#include "distributed/probe_rays.h"
 
 namespace lucarne {
 namespace {
@@ -55,9 +55,9 @@ PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const
   PartHeader header;
   header.sceneName = sceneName(options);
   header.environmentName = environmentName(options);
-  header.identity = {hashBytes(packed.glb), traceSettings(options), resolveSettings(options), layoutHash(plan),
-                     scene.emitters().totalFlux()};
-  header.makers = {{buildName(), scene.rayCaster().description(), cpuName(), probeRays(scene)}};
+  header.sceneFile = hashBytes(packed.glb);
+  header.identity = identityOf(options, scene, plan);
+  header.makers = {makerOf(scene)};
   header.planned = {options.photons == kUnlimitedPhotons ? 0 : options.photons, options.part ? options.part->n : 0, 0};
   if (gathersDirect(options)) {
     header.planned.samples = options.directSamples;
@@ -82,7 +82,8 @@ PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const
 
 /// The bake of one process, or of all ranks together: rank 0 alone reads, saves, writes and tells. Steps that can fail
 /// on one rank while the others wait are agreed on. Returns the report on rank 0.
-nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options, const JobControl& control) {
+nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options, const JobControl& control,
+                        const PlayerPictures& player) {
   const auto start = std::chrono::steady_clock::now();
   control.mayEndAtOnce("interrupted before the first photon; nothing is lost");
   const bool root = mpi == nullptr || mpi->rank() == 0;
@@ -117,6 +118,11 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options, const JobControl& cont
     state.emplace(BakeState{headerOf(options, packed, *scene, *plan), Tallies(plan->tallies, tallySets(options))});
   });
   if (mpi != nullptr) joinMakers(*mpi, state->header);
+  if (options.plan) {
+    agree([&] {
+      if (root) checkAgainstPlan(*options.plan, state->header);
+    });
+  }
   CheckpointFolder folder(checkpointPath(options));
   std::optional<nlohmann::json> finished;
   agree([&] {
@@ -124,13 +130,14 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options, const JobControl& cont
     finished = finishedBefore(options, state->header);
     if (finished) return;
     requireDisk(options, predictDisk(options, packed.scene, *plan, packed.glb.size()), options.resume ? folder.bytes() : 0);
-    takeUp(options, folder, *state);
+    takeUp(options, packed.scene, folder, *state);
   });
+  const ReportContext context{options, *scene, *plan, player};
   if (mpi != nullptr && mpi->gather(finished ? "finished" : "")[0] == "finished")
-    return root ? writeReport(options, *finished) : nullptr;
-  if (finished) return writeReport(options, *finished);
+    return root ? writeReport(context, state->header, nullptr, *finished) : nullptr;
+  if (finished) return writeReport(context, state->header, nullptr, *finished);
   control.mayEndAtOnce("");
-  const BakeSetup setup{mpi, options, packed, *scene, *plan, control, start};
+  const BakeSetup setup{mpi, options, packed, *scene, *plan, control, player, start};
   const JobResult result = traceBake(setup, *state, folder);
   if (!root) return nullptr;
   if (result.end == JobEnd::interrupted) throwInterrupted(setup, *state, result, folder);
@@ -139,14 +146,14 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options, const JobControl& cont
 
 }  // namespace
 
-nlohmann::json bake(const BakeOptions& options, const JobControl& control) {
+nlohmann::json bake(const BakeOptions& options, const JobControl& control, const PlayerPictures& player) {
   const std::unique_ptr<MpiJob> mpi = MpiJob::join();
-  if (mpi == nullptr) return bakeWith(nullptr, options, control);
+  if (mpi == nullptr) return bakeWith(nullptr, options, control, player);
   if (mpi->rank() != 0) setQuiet(true);
   ExitCode code = ExitCode::failed;
   std::string message;
   try {
-    return bakeWith(mpi.get(), options, control);
+    return bakeWith(mpi.get(), options, control, player);
   } catch (const AgreedError&) {
     if (mpi->rank() == 0) throw;
     return nullptr;

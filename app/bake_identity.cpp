@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string_view>
 
-#include "base/units.h"
+#include "base/system.h"
+#include "distributed/build_info.h"
+#include "distributed/probe_rays.h"
+#include "tracer/scene/light_hash.h"
 #include "tracer/transport/photon_hit.h"
 
 namespace lucarne {
@@ -26,21 +28,6 @@ T choiceAt(const JsonView& view, const std::array<const char*, n>& names) {
   const auto at = std::find(names.begin(), names.end(), view.text());
   if (at == names.end()) view.refuse("is none that this program knows");
   return static_cast<T>(at - names.begin());
-}
-
-/// 'it'\''s' for it's; plain names as they are.
-std::string quoted(const std::string& name) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/+=:,@%";
-  if (!name.empty() && name.find_first_not_of(kPlain) == std::string::npos) return name;
-  std::string text = "'";
-  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-/// The shortest text that reads as the same number.
-std::string shortest(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 /// As optionsOf(), with an InputError.
@@ -106,6 +93,15 @@ json resolveSettings(const BakeOptions& o) {
 
 std::string seamsName(const BakeOptions& o) { return kSeamModes[static_cast<std::size_t>(o.seams)]; }
 
+BakeIdentity identityOf(const BakeOptions& options, const PhotonScene& scene, const BakePlan& plan) {
+  return {lightHash(scene.scene()), traceSettings(options), resolveSettings(options), layoutHash(plan),
+          scene.emitters().totalFlux()};
+}
+
+Maker makerOf(const PhotonScene& scene) {
+  return {buildName(), scene.rayCaster().description(), cpuName(), probeRays(scene)};
+}
+
 BakeOptions optionsOf(const PartHeader& header, const std::string& file) {
   try {
     return readOptions(header, file);
@@ -114,43 +110,6 @@ BakeOptions optionsOf(const PartHeader& header, const std::string& file) {
   } catch (const Error& error) {
     throw Error(ExitCode::mergeRefused, error.what());
   }
-}
-
-std::string bakeCommand(const PartHeader& header, const std::string& output, const std::string& rest) {
-  const BakeOptions o = optionsOf(header, output), standard;
-  std::string text = "lucarne bake";
-  // A name that begins with a hyphen would be taken for an option.
-  const std::string scene = (header.sceneName.starts_with('-') ? "./" : "") + header.sceneName;
-  if (header.sceneName != kBuiltinSceneName) text += " " + quoted(scene);
-  text += " -o " + quoted((output.starts_with('-') ? "./" : "") + output);
-  const auto add = [&text](bool differs, const std::string& option) {
-    if (differs) text += " " + option;
-  };
-  add(o.photons != standard.photons, "--photons " + formatExactCount(o.photons));
-  add(true, "--directions " + std::to_string(o.directions));
-  add(o.charts != standard.charts, "--charts grow");
-  add(o.texelsPerMetre != standard.texelsPerMetre, "--density " + shortest(o.texelsPerMetre));
-  add(o.texelBudget != standard.texelBudget, "--texels " + formatExactCount(o.texelBudget));
-  add(o.keepAllDirections, "--keep-all-directions");
-  add(o.seed != standard.seed, "--seed " + std::to_string(o.seed));
-  add(o.sampler != standard.sampler, std::string("--sampler ") + kSamplers[static_cast<std::size_t>(o.sampler)]);
-  if (o.environment) {
-    const std::string sky = o.environment->string();
-    add(true, "--environment " + quoted((sky.starts_with('-') ? "./" : "") + sky));
-    add(o.environmentScale != 1, "--environment-scale " + shortest(o.environmentScale));
-    add(o.environmentTurn != 0, "--environment-turn " + shortest(o.environmentTurn));
-  }
-  add(!o.guidedEmission, "--no-guide");
-  add(o.light != standard.light, std::string("--light ") + kLightParts[static_cast<std::size_t>(o.light)]);
-  add(gathersDirect(o), "--direct gathered");
-  add(gathersDirect(o) && o.directSamples != standard.directSamples,
-      "--direct-samples " + formatExactCount(o.directSamples));
-  add(o.kernel.shape != standard.kernel.shape,
-      std::string("--kernel ") + kShapes[static_cast<std::size_t>(o.kernel.shape)]);
-  add(o.kernel.width != standard.kernel.width, "--kernel-width " + shortest(o.kernel.width));
-  add(o.seams != standard.seams, "--seams " + seamsName(o));
-  add(o.dropError > 0, "--drop-error " + shortest(100 * o.dropError) + "%");
-  return text + (rest.empty() ? "" : " " + rest);
 }
 
 }  // namespace lucarne

@@ -6,6 +6,7 @@
 #include "app/bake_plan.h"
 #include "base/json.h"
 #include "distributed/part_header.h"
+#include "tracer/transport/photon_scene.h"
 
 namespace lucarne {
 
@@ -16,13 +17,13 @@ nlohmann::json resolveSettings(const BakeOptions& options);
 /// "fit" or "keep".
 std::string seamsName(const BakeOptions& options);
 
+/// Of which bake it is, and who makes it here.
+BakeIdentity identityOf(const BakeOptions& options, const PhotonScene& scene, const BakePlan& plan);
+Maker makerOf(const PhotonScene& scene);
+
 /// The options of a bake whose header this is; everything else as by default. Error(mergeRefused), naming `file`, for
 /// settings that this program does not know.
 BakeOptions optionsOf(const PartHeader& header, const std::string& file);
-
-/// "lucarne bake room.glb -o OUTPUT --seed 3 …": the command that bakes with these options, defaults left out, `rest`
-/// at the end. The scene's name is quoted for a shell.
-std::string bakeCommand(const PartHeader& header, const std::string& output, const std::string& rest);
 
 /// Of charts, texels, directions and the order of tallies.
 Hash128 layoutHash(const BakePlan& plan);

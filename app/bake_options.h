@@ -72,6 +72,7 @@ struct BakeOptions {
   bool resume = false;             // go on from a saved state where there is one
   bool keepPart = false;           // the tallies, too, as NAME.part
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> plan;  // a plan file that the bake must be of (plan_file.h)
   DlmFormat format;
   std::string isa;  // Embree's instruction set; empty: avx2 where the processor has it
   bool quiet = false;

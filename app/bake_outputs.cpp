@@ -2,10 +2,10 @@
 
 #include "app/bake_report.h"
 #include "app/bake_rescue.h"
+#include "app/report_writing.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
 
@@ -53,7 +53,7 @@ void checkMapsOutput(const std::filesystem::path& path) {
 void checkOutputs(const BakeOptions& options) {
   if (writesPart(options) || options.keepPart) checkPartOutput(partPath(options), IndexSet(photonsOf(options)));
   if (!writesPart(options)) checkMapsOutput(options.output);
-  if (options.report) checkWritable(*options.report);
+  if (options.report) checkReport(*options.report);
 }
 
 nlohmann::json writeMaps(const BakeSetup& setup, const BakeState& state, const std::filesystem::path& path,
@@ -74,28 +74,35 @@ nlohmann::json writeMaps(const BakeSetup& setup, const BakeState& state, const s
 
 namespace {
 
-/// The report of all but the outputs, which are written.
-nlohmann::json writeOutputs(const BakeSetup& setup, const BakeState& state, CheckpointFolder& folder,
+/// The report of all but the outputs, which are written; of a part the light maps, where there is a report.
+struct Written {
+  nlohmann::json report;
+  std::optional<LightMaps> maps;
+};
+
+Written writeOutputs(const BakeSetup& setup, const BakeState& state, CheckpointFolder& folder,
                             const JobResult& result) {
   const BakeOptions& options = setup.options;
-  nlohmann::json report;
+  Written written;
+  nlohmann::json& report = written.report;
   if (!writesPart(options)) {
     report = writeMaps(setup, state, options.output, result.end);
   } else if (options.report) {
-    const Baked baked =
+    Baked baked =
         resolveBake(setup.packed.scene, setup.plan, options, state.header, state.tallies, &setup.scene.rayCaster());
     report = makeReport({options, setup.packed.scene, setup.plan, state.header, &baked});
+    written.maps = std::move(baked.maps);
   } else {
     report = makeReport({options, setup.packed.scene, setup.plan, state.header, nullptr});
   }
   report["ended_by"] = nameOf(result.end);
   setup.control.mayEndAtOnce("");
   if (writesPart(options) || options.keepPart) publishPart(options, setup.packed, state, folder, result.saved);
-  return report;
+  return written;
 }
 
 /// A full disk gets a second try without the older of the saved states.
-nlohmann::json writeOutputsOnFullDisk(const BakeSetup& setup, const BakeState& state, CheckpointFolder& folder,
+Written writeOutputsOnFullDisk(const BakeSetup& setup, const BakeState& state, CheckpointFolder& folder,
                                       const JobResult& result) {
   try {
     return writeOutputs(setup, state, folder, result);
@@ -116,25 +123,22 @@ nlohmann::json finish(const BakeSetup& setup, BakeState& state, CheckpointFolder
     setup.control.mayEndAtOnce("");
     return Error(code, what + "; " + (result.saved ? "all " + saved : rescueState(setup, state, folder)));
   };
-  nlohmann::json report;
+  Written written;
   try {
-    report = writeOutputsOnFullDisk(setup, state, folder, result);
+    written = writeOutputsOnFullDisk(setup, state, folder, result);
   } catch (const Error& error) {
     throw fail(error.code(), error.what());
   } catch (const std::bad_alloc&) {
     throw fail(ExitCode::outOfResource, "not enough memory to make the light maps");
   }
   folder.remove();
+  nlohmann::json& report = written.report;
   report["trace_variant_speedup"] = state.variantSpeedup;
   report["checkpoints"] = state.checkpoints;
   report["checkpoint_seconds"] = state.checkpointSeconds;
-  return writeReport(setup.options, report);
-}
-
-nlohmann::json writeReport(const BakeOptions& options, nlohmann::json report) {
   report["peak_memory_bytes"] = peakMemoryBytes();
-  if (options.report) writeFileAtomically(*options.report, dumpJson(report));
-  return report;
+  const ReportContext context{setup.options, setup.scene, setup.plan, setup.player};
+  return writeReport(context, state.header, written.maps ? &*written.maps : nullptr, std::move(report));
 }
 
 }  // namespace lucarne

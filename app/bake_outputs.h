@@ -26,7 +26,4 @@ nlohmann::json writeMaps(const BakeSetup& setup, const BakeState& state, const s
 /// Writes everything the options ask for and removes the saved states. Returns the report.
 nlohmann::json finish(const BakeSetup& setup, BakeState& state, CheckpointFolder& folder, const JobResult& result);
 
-/// Adds the peak of memory and writes the report where the options say so; returns it.
-nlohmann::json writeReport(const BakeOptions& options, nlohmann::json report);
-
 }  // namespace lucarne

@@ -93,6 +93,7 @@ nlohmann::json makeReport(const ReportInput& in) {
   report["program"] = std::string("lucarne ") + LUCARNE_VERSION;
   report["scene"] = in.header.sceneName;
   report["scene_hash"] = in.header.identity.scene.hex();
+  report["scene_file_hash"] = in.header.sceneFile.hex();
   report["settings"] = settingsToJson(in.options, in.plan);
   report["settings_hash"] = in.header.identity.settingsHash().hex();
   report["photons"] = ledger.photons;

@@ -6,6 +6,7 @@
 
 #include "app/bake_options.h"
 #include "distributed/bake_job.h"
+#include "tracer/scene/scene.h"
 
 namespace lucarne {
 
@@ -14,8 +15,9 @@ namespace lucarne {
 std::optional<nlohmann::json> finishedBefore(const BakeOptions& options, const PartHeader& header);
 
 /// Opens the folder of states. With --resume, the newest state there (or the finished part) becomes `state`;
-/// Error(mergeRefused) names what differs when it is of another bake. Without, states that are there are moved aside,
-/// with a warning.
-void takeUp(const BakeOptions& options, CheckpointFolder& folder, BakeState& state);
+/// Error(mergeRefused) names what differs when it is of another bake, of another `scene` what light would notice.
+/// Without, states that are there are moved aside, with a warning; but a finished part of this very bake, with all of
+/// its photons, becomes `state`: tracing would only give it once more.
+void takeUp(const BakeOptions& options, const Scene& scene, CheckpointFolder& folder, BakeState& state);
 
 }  // namespace lucarne

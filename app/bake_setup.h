@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "app/bake_plan.h"
+#include "app/report_pictures.h"
 #include "distributed/job_control.h"
 #include "distributed/mpi_job.h"
 #include "tracer/scene/gltf_packer.h"
@@ -19,6 +20,7 @@ struct BakeSetup {
   const PhotonScene& scene;
   const BakePlan& plan;
   const JobControl& control;
+  const PlayerPictures& player;  // of the report's page
   std::chrono::steady_clock::time_point start;  // of this run
 
   bool root() const { return mpi == nullptr || mpi->rank() == 0; }

@@ -4,6 +4,7 @@
 
 #include "app/bake_outputs.h"
 #include "app/bake_scene.h"
+#include "app/rate_recorder.h"
 #include "app/trace_variant.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -123,6 +124,7 @@ JobResult traceBake(const BakeSetup& setup, BakeState& state, CheckpointFolder& 
   const StopRules rules = rulesOf(setup, state);
   ProgressLine progress("baking", goalOf(options, rules), silent, standardProgressOutput(json));
   progress.startFrom(state.header.photons.count(), state.header.ledger.rays);
+  RateRecorder rates(state.header);
   ErrorEstimator estimator(setup);
   BakeJob job{
       .task = {scene, map, plan.tallies, plan.directions},
@@ -130,7 +132,11 @@ JobResult traceBake(const BakeSetup& setup, BakeState& state, CheckpointFolder& 
       .range = range,
       .scene = packed.glb,
       .checkpointSeconds = options.checkpointSeconds,
-      .progress = [&](const JobProgress& p) { tell(progress, options, p); },
+      .progress =
+          [&](const JobProgress& p) {
+            tell(progress, options, p);
+            rates.add(p.photons);
+          },
       .direct = gather ? std::optional(DirectJob{*gather, samplesOf(options)}) : std::nullopt,
       .rules = rules,
       .control = setup.control,

@@ -3,13 +3,18 @@
 #include <chrono>
 
 #include "app/bake_environment.h"
+#include "app/bake_identity.h"
+#include "app/bake_report.h"
 #include "app/bake_scene.h"
 #include "app/check_features.h"
 #include "app/check_layout.h"
 #include "app/check_lights.h"
+#include "app/check_surfaces.h"
 #include "app/check_time.h"
 #include "app/load_scene.h"
+#include "app/plan_file.h"
 #include "app/trace_variant.h"
+#include "base/error.h"
 #include "base/memory.h"
 
 namespace lucarne {
@@ -25,7 +30,7 @@ nlohmann::json settingsOf(const BakeOptions& o) {
 }
 
 nlohmann::json sectionsOf(const CheckInput& in) {
-  CheckWarnings warnings;
+  CheckWarnings warnings, failures;
   nlohmann::json checked = {
       {"kind", "check"}, {"program", std::string("lucarne ") + LUCARNE_VERSION}, {"settings", settingsOf(in.options)}};
   checked["scene"] = checkSize(in, warnings);
@@ -33,17 +38,40 @@ nlohmann::json sectionsOf(const CheckInput& in) {
   checked["left_out"] = in.scene().leftOut;
   checked["lights"] = checkLights(in, warnings);
   checked["uv"] = checkUv(in.scene());
+  checked["surfaces"] = checkSurfaces(in.scene());
   checked["layout"] = checkLayout(in, warnings);
-  checked["resources"] = checkResources(in, warnings);
-  checked["time"] = checkTime(in, checked["layout"], warnings);
+  checked["resources"] = checkResources(in, warnings, failures);
+  checked["time"] = checkTime(in, checked["layout"], warnings, failures);
   checked["time"]["variant"] = traceVariant(in.scene());
   checked["warnings"] = warnings.list();
+  checked["failures"] = nlohmann::json::array();
+  for (const nlohmann::json& failure : failures.list()) checked["failures"].push_back(failure["text"]);
   return checked;
+}
+
+/// A layout that no budget allows ends a bake with "out of resources"; here it is what was asked.
+BakePlan planForCheck(const Scene& scene, const BakeOptions& options) {
+  try {
+    return makePlan(scene, options);
+  } catch (const Error& error) {
+    throw InputError(std::string("the bake would fail: ") + error.what());
+  }
+}
+
+PartHeader headerOf(const BakeOptions& options, const PackedScene& packed, const PhotonScene& scene,
+                    const BakePlan& plan) {
+  PartHeader header;
+  header.sceneName = sceneName(options);
+  header.environmentName = environmentName(options);
+  header.identity = identityOf(options, scene, plan);
+  header.sceneFile = hashBytes(packed.glb);
+  header.makers = {makerOf(scene)};
+  return header;
 }
 
 }  // namespace
 
-nlohmann::json checkScene(const BakeOptions& asked) {
+nlohmann::json checkScene(const BakeOptions& asked, const std::filesystem::path& planFolder) {
   checkSettings(asked);
   checkMachine(asked);
   BakeOptions options = asked;
@@ -54,9 +82,11 @@ nlohmann::json checkScene(const BakeOptions& asked) {
   settleDirections(packed.scene, options);
   BakeOptions guided = options;
   prepareEmission(photonScene, guided);
-  const BakePlan plan = makePlan(packed.scene, options);
+  const BakePlan plan = planForCheck(packed.scene, options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return sectionsOf({options, photonScene, plan, packed.glb.size(), seconds, peakMemoryBytes()});
+  nlohmann::json checked = sectionsOf({options, photonScene, plan, packed.glb.size(), seconds, peakMemoryBytes()});
+  checked["plan"] = planOf(guided, headerOf(guided, packed, photonScene, plan), planFolder);
+  return checked;
 }
 
 }  // namespace lucarne

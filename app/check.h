@@ -10,9 +10,10 @@
 namespace lucarne {
 
 /// Reads the scene, lays it out and traces photons for about half a second; writes nothing. Failures as in bake():
-/// UsageError, InputError, or Error(outOfResource) for a layout that no budget allows. Keys: kind, program, scene,
-/// modelled, left_out, lights, uv, layout, resources, time, settings, warnings [{id, text}].
-nlohmann::json checkScene(const BakeOptions& options);
+/// UsageError, or InputError for a scene that no bake would take. Keys: kind, program, scene, modelled, left_out, lights,
+/// uv, surfaces, layout, resources, time, settings, warnings [{id, text}], failures (why the bake would fail: texts), and
+/// plan (plan_file.h, seen from `planFolder`).
+nlohmann::json checkScene(const BakeOptions& options, const std::filesystem::path& planFolder = {});
 
 /// The same for people: aligned sections, warnings last.
 std::string checkText(const nlohmann::json& checked);

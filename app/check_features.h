@@ -13,7 +13,8 @@ nlohmann::json checkSize(const CheckInput& input, CheckWarnings& warnings);
 nlohmann::json listModelled(const Scene& scene);
 
 /// The file's own unwrapping (TEXCOORD_1): present, and if so inside_unit_square, area (of all triangles in texture
-/// space; above 1 some must overlap), triangles_without_area. The bake makes charts of its own in any case.
+/// space; above 1 some must overlap), triangles_without_area. Which meshes' unwrapping can be used is told by the
+/// layout (uv1_charts) and by warnings.
 nlohmann::json checkUv(const Scene& scene);
 
 }  // namespace lucarne

@@ -27,6 +27,28 @@ double meanTexel(const Scene& scene, const BakePlan& plan) {
   return texels > 0 ? scene.frame.scale * std::sqrt(area / texels) : 0;
 }
 
+/// Texels a metre of charts, and the surface they have; ascending. Charts smaller than a texel get a whole one all the
+/// same, which says nothing of density: those less than two texels wide or high do not count.
+std::vector<std::pair<double, double>> densities(const Scene& scene, const BakePlan& plan) {
+  std::vector<std::pair<double, double>> list;
+  for (std::size_t i = 0; i < plan.charts.charts.size(); ++i) {
+    if (plan.layout.charts[i].width < 2 || plan.layout.charts[i].height < 2) continue;
+    const Vec2d d = plan.layout.charts[i].texelsPerLocal;
+    list.emplace_back(std::sqrt(d.x * d.y) / scene.frame.scale, plan.charts.charts[i].area);
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+/// Half of the surface has no more texels a metre than this.
+double medianDensity(const std::vector<std::pair<double, double>>& ascending) {
+  double all = 0, sum = 0;
+  for (const auto& [density, area] : ascending) all += area;
+  for (const auto& [density, area] : ascending)
+    if ((sum += area) >= all / 2) return density;
+  return 0;
+}
+
 nlohmann::json largestChart(const Scene& scene, const BakePlan& plan) {
   const auto& charts = plan.layout.charts;
   const auto at = std::max_element(charts.begin(), charts.end(), [](const ChartLayout& a, const ChartLayout& b) {
@@ -113,10 +135,11 @@ struct Needs {
   std::uint64_t maps, memory, disk;  // maps: tallies and maps, what a bake asks for before it starts
 };
 
-void warnOfResources(const Needs& needs, std::uint64_t memory, std::uint64_t disk, CheckWarnings& warnings) {
+void warnOfResources(const Needs& needs, std::uint64_t memory, std::uint64_t disk, CheckWarnings& warnings,
+                     CheckWarnings& failures) {
   if (needs.maps > memory) {
-    warnings.add("memory", "the bake would not start: light maps need " + formatBytes(needs.maps) + " and " +
-                               formatBytes(memory) + " are free; lower --density, --texels or --directions");
+    failures.add("memory", "light maps need " + formatBytes(needs.maps) + " and " + formatBytes(memory) +
+                               " are free; lower --density, --texels or --directions");
   } else if (needs.memory > memory) {
     warnings.add("memory", "the bake may run out of memory: it takes about " + formatBytes(needs.memory) + " and " +
                                formatBytes(memory) + " are free; lower --density, --texels or --directions");
@@ -132,6 +155,7 @@ nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
   const BakePlan& plan = in.plan;
   const auto directional = [&](const TallySide& s) { return !plan.tallies.membersOf(s).members.empty(); };
   const TinyCharts tiny = tinyCharts(in.scene(), plan);
+  const auto density = densities(in.scene(), plan);
   warnOfLayout(in, tiny, warnings);
   for (const std::string& why : plan.charts.uv1Refused) warnings.add("uv1", why + ": charts are grown instead");
   return {{"charts", plan.charts.charts.size()},
@@ -143,6 +167,9 @@ nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
           {"covered_texels", coveredTexels(plan)},
           {"texels_per_metre", in.options.texelsPerMetre},
           {"texels_per_metre_used", plan.layout.texelsPerMetre},
+          {"texels_per_metre_min", density.empty() ? 0 : density.front().first},
+          {"texels_per_metre_median", medianDensity(density)},
+          {"texels_per_metre_max", density.empty() ? 0 : density.back().first},
           {"thinned", plan.layout.thinned},
           {"mean_texel_mm", 1000 * meanTexel(in.scene(), plan)},
           {"largest_chart", largestChart(in.scene(), plan)},
@@ -150,13 +177,13 @@ nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
           {"tiny_charts_area_share", tiny.areaShare}};
 }
 
-nlohmann::json checkResources(const CheckInput& in, CheckWarnings& warnings) {
+nlohmann::json checkResources(const CheckInput& in, CheckWarnings& warnings, CheckWarnings& failures) {
   const std::uint64_t tallies = tallyBytes(in.plan, in.options),
                       maps = tallies + memoryOfMaps(in.plan.tallies.bytes());
   const std::uint64_t peak = in.peakBytes + std::max(tracingBytes(in), maps);
   const std::uint64_t dlm = dlmBytes(in), states = 3 * (tallies + in.glbBytes);
   const std::uint64_t memory = availableMemoryBytes(), disk = freeDiskBytes();
-  warnOfResources({maps, peak, dlm + states}, memory, disk, warnings);
+  warnOfResources({maps, peak, dlm + states}, memory, disk, warnings, failures);
   return {{"tally_bytes", tallies},
           {"expected_peak_memory_bytes", peak},
           {"free_memory_bytes", memory},

@@ -6,14 +6,16 @@
 namespace lucarne {
 
 /// charts, chart_sides, sides_with_directions, directions, texels (of all chart sides), covered_texels (with surface in
-/// them), texels_per_metre asked for and _used, thinned (the budget lowered it), mean_texel_mm, largest_chart {width,
-/// height, material}, tiny_charts (with less surface than a tenth of a texel) and tiny_charts_area_share (of all).
+/// them), texels_per_metre asked for and _used, thinned (the budget lowered it), mean_texel_mm,
+/// texels_per_metre_min, _median (by surface) and _max of charts at least two texels wide and high (0: there are none),
+/// largest_chart {width, height, material}, tiny_charts (with less surface than a tenth of a texel) and tiny_charts_area_share (of all).
 nlohmann::json checkLayout(const CheckInput& input, CheckWarnings& warnings);
 
 /// Bytes: tally_bytes; expected_peak_memory_bytes = peak of this check without tallies + the larger of tallies of all
 /// threads while tracing and tallies + memoryOfMaps() while making maps; free_memory_bytes; at most map_bytes in memory
 /// and dlm_bytes on disk before compression; checkpoint_bytes (two states and one being written); free_disk_bytes of
 /// the folder it is run in.
-nlohmann::json checkResources(const CheckInput& input, CheckWarnings& warnings);
+/// Failures: light maps for which a bake would not start.
+nlohmann::json checkResources(const CheckInput& input, CheckWarnings& warnings, CheckWarnings& failures);
 
 }  // namespace lucarne

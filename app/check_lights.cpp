@@ -153,6 +153,17 @@ void warnOfBrightness(const std::vector<Source>& sources, const char* kind, doub
                                    " (" + compare + "); did the exporter write other units?");
 }
 
+/// Light that comes to so little of all is noise.
+void warnOfFaintLights(const std::vector<Source>& sources, CheckWarnings& warnings) {
+  constexpr double kUnlikelyRatio = 1e6;
+  const auto faint = those(sources, [&](const Source& s) {
+    return luminance(s.flux) > 0 && luminance(s.flux) * kUnlikelyRatio < luminance(sources.front().flux);
+  });
+  if (faint.empty()) return;
+  warnings.add("faint_light", nameSome(faint) + ": less than a millionth of the light of " + nameSome({sources.front()}) +
+                                  "; are they in the same units?");
+}
+
 /// Exporters write watts, or numbers without a unit, where glTF wants candela, lux and cd/m².
 void warnOfUnits(const std::vector<Source>& sources, double punctual, double emissive, CheckWarnings& warnings) {
   constexpr double kBrightCandela = 1e5, kBrightLux = 2e5, kUnlikelyRatio = 1e4;
@@ -193,6 +204,7 @@ nlohmann::json checkLights(const CheckInput& input, CheckWarnings& warnings) {
   const Rgbd all = punctual + emissive;
   warnOfDarkness(sources, luminance(all), warnings);
   warnOfUnits(sources, luminance(punctual), luminance(emissive), warnings);
+  warnOfFaintLights(sources, warnings);
   nlohmann::json list = nlohmann::json::array();
   for (const Source& s : sources) list.push_back(toJson(s, luminance(all)));
   return {{"sources", list},

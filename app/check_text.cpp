@@ -120,14 +120,34 @@ void writeLights(const Json& lights, Sections& out) {
     out.line(padded(amount(rest), 8) + " lm of " + std::to_string(sources.size() - kMost) + " weaker ones");
 }
 
-void writeUv(const Json& uv, Sections& out) {
+void writeUv(const Json& uv, const Json& layout, Sections& out) {
   out.begin("uv");
   if (!uv["present"].get<bool>()) return out.line("no TEXCOORD_1; not needed, the bake makes charts of its own");
   const auto area = uv["area"].get<double>();
   std::string text = "TEXCOORD_1 " + std::string(uv["inside_unit_square"].get<bool>() ? "inside" : "leaves") +
                      " the unit square, area " + number(uv["area"]) + (area > 1 ? " (overlaps)" : "");
-  if (uv["triangles_without_area"] > 0) text += ", " + counted(uv["triangles_without_area"], "triangle") + " without";
-  out.line(text + "; not used, the bake makes charts of its own", 2);
+  if (uv["triangles_without_area"] > 0) text += ", " + counted(uv["triangles_without_area"], "triangle") + " without area";
+  out.line(text + "; " + formatCount(layout["uv1_charts"].get<std::uint64_t>()) + " of " +
+               counted(layout["charts"], "chart") + " are of it, the others are grown",
+           2);
+}
+
+void writeSurfaces(const Json& s, Sections& out) {
+  constexpr std::size_t kMost = 4;
+  out.begin("surfaces");
+  out.line(counted(s["meshes"], "mesh piece") + ": " + formatCount(s["closed"].get<std::uint64_t>()) + " closed, " +
+               formatCount(s["open"].get<std::uint64_t>()) + " open, of these " +
+               formatCount(s["one_sided_open"].get<std::uint64_t>()) + " one-sided (black and without maps from behind)" +
+               (s["crowded_edges"] > 0 ? "; " + counted(s["crowded_edges"], "edge") + " with more than two triangles" : ""),
+           2);
+  for (std::size_t i = 0; i < std::min(kMost, s["list"].size()); ++i) {
+    const Json& mesh = s["list"][i];
+    out.line("open: " + quotedName(mesh["name"].get<std::string>()) + " of " +
+                 quotedName(mesh["material"].get<std::string>()) + ", " + counted(mesh["open_edges"], "edge") +
+                 (mesh["one_sided"].get<bool>() ? ", one-sided" : ""),
+             6);
+  }
+  if (s["list"].size() > kMost) out.line("and more; --json lists 20");
 }
 
 void writeLayout(const Json& layout, Sections& out) {
@@ -138,6 +158,8 @@ void writeLayout(const Json& layout, Sections& out) {
   if (layout["thinned"].get<bool>()) text += " (" + number(layout["texels_per_metre"]) + " asked for)";
   text += ", " + lengthOf(layout["mean_texel_mm"].get<double>()) + " a texel on average";
   out.line(text, 2);
+  out.line("texels per metre of charts: " + number(layout["texels_per_metre_min"]) + " to " +
+           number(layout["texels_per_metre_max"]) + ", median by surface " + number(layout["texels_per_metre_median"]));
   if (const Json& largest = layout["largest_chart"]; !largest.is_null())
     out.line("largest chart " + largest["width"].dump() + " x " + largest["height"].dump() + " texels, of " +
              quotedName(largest["material"].get<std::string>()));
@@ -182,13 +204,17 @@ std::string checkText(const nlohmann::json& checked) {
   writeScene(checked["scene"], out);
   writeFeatures(checked, out);
   writeLights(checked["lights"], out);
-  writeUv(checked["uv"], out);
+  writeUv(checked["uv"], checked["layout"], out);
+  writeSurfaces(checked["surfaces"], out);
   writeLayout(checked["layout"], out);
   writeResources(checked["resources"], out);
   writeTime(checked["time"], out);
   out.begin("warnings");
   for (const Json& w : checked["warnings"]) out.line("- " + w["text"].get<std::string>(), 2);
   if (checked["warnings"].empty()) out.line("none");
+  if (checked["failures"].empty()) return out.text();
+  out.begin("would fail");
+  for (const Json& why : checked["failures"]) out.line("- " + why.get<std::string>(), 2);
   return out.text();
 }
 

@@ -128,9 +128,18 @@ void warnOfNoise(double perTexel, CheckWarnings& warnings) {
                      std::string(" into a texel, on average: trace more, or lower --density"));
 }
 
+/// A bake ends when the light of all hits of a channel passes 63 bits; roulette keeps a hit's near the unit.
+void failOnFullTallies(double hits, CheckWarnings& failures) {
+  const double share = hits * static_cast<double>(kFixedPointOne) / 0x1p63;
+  if (share >= 1)
+    failures.add("tallies", "the tallies would be full after " + formatPercent(1 / share) +
+                                " of the photons: bake fewer, or parts with light maps of their own");
+}
+
 }  // namespace
 
-nlohmann::json checkTime(const CheckInput& in, const nlohmann::json& layout, CheckWarnings& warnings) {
+nlohmann::json checkTime(const CheckInput& in, const nlohmann::json& layout, CheckWarnings& warnings,
+                         CheckWarnings& failures) {
   const auto photons = static_cast<double>(in.options.photons);
   nlohmann::json json = {
       {"seconds_of_setup", in.secondsOfSetup}, {"threads", threadCount(in.options)}, {"photons", in.options.photons}};
@@ -141,6 +150,7 @@ nlohmann::json checkTime(const CheckInput& in, const nlohmann::json& layout, Che
   const double perTexel = covered > 0 ? photons * bare.hits / covered : 0;
   warnOfWaste(in, bare, warnings);
   warnOfNoise(perTexel, warnings);
+  failOnFullTallies(photons * bare.hits, failures);
   json.update({{"seconds", photons / stored.perSecond},
                {"photons_per_second", stored.perSecond},
                {"sampled_tally_bytes", stored.tallyBytes},

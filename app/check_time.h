@@ -11,6 +11,8 @@ namespace lucarne {
 /// texel, on average). Fractions of the photons: missed (left the scene without a hit), lost (ended on the black back
 /// of a one-sided surface before any lit side); of the flux: escaped (left the scene, after bounces too). A scene
 /// without light has only seconds_of_setup, threads and photons. `layout`: that section.
-nlohmann::json checkTime(const CheckInput& input, const nlohmann::json& layout, CheckWarnings& warnings);
+/// Failures: more photons than tallies can hold, which a bake would find out at the end.
+nlohmann::json checkTime(const CheckInput& input, const nlohmann::json& layout, CheckWarnings& warnings,
+                         CheckWarnings& failures);
 
 }  // namespace lucarne

@@ -1,13 +1,12 @@
 #include "app/contact_sheet.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/sheet_exposure.h"
+#include "app/sheet_maps.h"
 #include "app/sheet_panel.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "base/heat_colour.h"
 #include "base/image_file.h"
 #include "base/units.h"
 #include "dlm/direction_set.h"
@@ -15,86 +14,8 @@
 namespace lucarne {
 namespace {
 
-constexpr int kMargin = 16, kHeading = 34, kLargeSide = 512, kSmallSide = 250, kColumns = 8;
+constexpr int kMargin = 16, kHeading = 34, kSmallSide = 250, kColumns = 8;
 constexpr std::size_t kMostDirections = 64;
-
-/// Calls use(chart, side) for the lit sides.
-template <class Use>
-void forEachSide(const LightMaps& maps, bool back, Use use) {
-  for (const SideMaps& side : maps.sides) {
-    if (side.lit && side.back == back) use(maps.charts[side.chart], side);
-  }
-}
-
-bool anySide(const LightMaps& maps, bool back) {
-  bool any = false;
-  forEachSide(maps, back, [&](const MapChart&, const SideMaps&) { any = true; });
-  return any;
-}
-
-std::vector<double> luminancesOf(const std::vector<Rgb>& values) {
-  constexpr std::size_t kEnough = 1 << 20;
-  std::vector<double> l;
-  for (std::size_t i = 0; i < values.size(); i += 1 + values.size() / kEnough) l.push_back(luminance(Rgbd(values[i])));
-  return l;
-}
-
-/// The least of 1, 2, 5, 10 … (times a power of ten) that all but a twentieth of the values lie under.
-double roundTop(std::vector<double> values) {
-  if (values.empty()) return 1;
-  const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  const double top = values[static_cast<std::size_t>(rank)];
-  if (!(top > 0) || !std::isfinite(top)) return 1;
-  const double power = std::pow(10, std::floor(std::log10(top)));
-  for (const double step : {1., 2., 5.}) {
-    if (top <= step * power * (1 + 1e-9)) return step * power;
-  }
-  return 10 * power;
-}
-
-std::vector<double> litValues(const std::vector<float>& values) {
-  std::vector<double> lit;
-  for (const float v : values) {
-    if (v > 0) lit.push_back(static_cast<double>(v));
-  }
-  return lit;
-}
-
-SheetPanel irradiancePanel(const LightMaps& maps, bool back, const SheetExposure& exposure) {
-  SheetPanel panel{back ? "irradiance, backs" : "irradiance", exposure.words(), false, AtlasGrid(maps, kLargeSide),
-                   exposure};
-  forEachSide(maps, back, [&](const MapChart& chart, const SideMaps& side) {
-    panel.grid.addSide(chart, [&](std::uint64_t t) { return Rgbd(maps.irradiance[side.firstTexel + t]); });
-  });
-  return panel;
-}
-
-/// A panel of single numbers: `shown` brings a value to 0 … 1.
-SheetPanel numberPanel(const LightMaps& maps, bool back, const std::vector<float>& values, std::string title,
-                       std::string legend, const std::function<double(double)>& shown) {
-  SheetPanel panel{title + (back ? ", backs" : ""), std::move(legend), true, AtlasGrid(maps, kLargeSide),
-                   [shown](Vec3d v) { return heatColour(shown(v.x)); }};
-  forEachSide(maps, back, [&](const MapChart& chart, const SideMaps& side) {
-    panel.grid.addSide(chart, [&](std::uint64_t t) { return Vec3d(static_cast<double>(values[side.firstTexel + t])); });
-  });
-  return panel;
-}
-
-std::vector<SheetPanel> largePanels(const LightMaps& maps, bool back) {
-  std::vector<SheetPanel> panels;
-  panels.push_back(irradiancePanel(maps, back, SheetExposure(luminancesOf(maps.irradiance))));
-  const double topError = roundTop(litValues(maps.relativeError));
-  panels.push_back(numberPanel(maps, back, maps.relativeError, "estimated relative error",
-                               "0 to " + formatPercent(topError) + " or more",
-                               [topError](double v) { return v / topError; }));
-  const double topPhotons = std::max(2., roundTop(litValues(maps.photons)));
-  panels.push_back(numberPanel(
-      maps, back, maps.photons, "photons in the texel",
-      "0, then 1 to " + formatNumber(topPhotons) + " or more by their logarithm",
-      [topPhotons](double v) { return v > 0 ? 0.1 + 0.9 * std::log(std::max(v, 1.)) / std::log(topPhotons) : 0; }));
-  return panels;
-}
 
 /// ψ by descending light, of those that some map is stored of, with the sum of their values.
 std::vector<std::pair<double, int>> directionsByLight(const LightMaps& maps) {
@@ -172,13 +93,13 @@ int layOut(const Dlm& dlm, const std::string& title, int width, Canvas* canvas) 
   const LightMaps& maps = dlm.maps;
   Rows rows(width);
   rows.heading(title, canvas);
-  const int large = drawnHeight(maps, kLargeSide), small = drawnHeight(maps, kSmallSide);
+  const int large = drawnHeight(maps, kLargePanel), small = drawnHeight(maps, kSmallSide);
   for (const bool back : {false, true}) {
     if (back && !anySide(maps, back)) continue;
     rows.endRow();
     std::vector<SheetPanel> panels;
-    if (canvas != nullptr) panels = largePanels(maps, back);
-    for (std::size_t i = 0; i < 3; ++i) rows.panel(kLargeSide, large, canvas, [&] { return panels[i]; });
+    if (canvas != nullptr) panels = {irradiancePanel(maps, back), errorPanel(maps, back), photonsPanel(maps, back)};
+    for (std::size_t i = 0; i < 3; ++i) rows.panel(kLargePanel, large, canvas, [&] { return panels[i]; });
   }
   auto order = directionsByLight(maps);
   if (order.empty()) return rows.endRow();

@@ -11,6 +11,10 @@ namespace lucarne {
 /// anything else.
 nlohmann::json describe(const std::filesystem::path& path);
 
+/// How a .part or a .dlm stands to a scene file as it is now: "matches" (the light would be the same), "same_file", and
+/// "differences" in words. InputError where `path` is neither.
+nlohmann::json compareWithScene(const std::filesystem::path& path, const std::filesystem::path& scene);
+
 /// The same as indented lines "key: value".
 std::string toText(const nlohmann::json& description);
 

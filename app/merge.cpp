@@ -6,6 +6,7 @@
 #include "app/bake_outputs.h"
 #include "app/bake_report.h"
 #include "app/merge_gaps.h"
+#include "app/report_writing.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json.h"
@@ -15,6 +16,7 @@
 #include "distributed/build_info.h"
 #include "distributed/merge.h"
 #include "tracer/scene/gltf_reader.h"
+#include "tracer/scene/light_hash.h"
 
 namespace lucarne {
 namespace {
@@ -35,9 +37,13 @@ void checkNoInput(const std::optional<fs::path>& output, const char* what, const
 
 /// Asked before the work.
 void checkOutput(const MergeOptions& options, const std::vector<fs::path>& inputs) {
-  checkNoInput(options.report, "report", inputs);
+  if (options.report) {
+    const ReportFiles files = reportFiles(*options.report);
+    checkNoInput(files.json, "report", inputs);
+    checkNoInput(files.page, "report", inputs);
+  }
   checkNoInput(options.output, "output", inputs);
-  if (options.report) checkWritable(*options.report);
+  if (options.report) checkReport(*options.report);
   if (options.output)
     toPart(options) ? checkPartOutput(*options.output, std::nullopt) : checkMapsOutput(*options.output);
 }
@@ -117,6 +123,7 @@ struct MergedScene {
   MergedScene(const std::vector<std::uint8_t>& glb, const BakeOptions& baked, const PartHeader& whole,
               const std::string& name)
       : scene(readScene(glb, name)), plan(makePlanWithin(scene, baked, whole.texels, name)) {
+    if (lightHash(scene) != whole.identity.scene) throw Error(ExitCode::mergeRefused, altered(name));
     const bool sameSize = plan.tallies.lightEntries == whole.lightEntries && plan.tallies.texels == whole.texels;
     if (layoutHash(plan) == whole.identity.layout && sameSize) return;
     const std::string& build = whole.makers.begin()->build;
@@ -150,13 +157,29 @@ struct MergedScene {
   }
 };
 
-nlohmann::json writeMaps(const MergeOptions& options, BakeOptions baked, const MergedScene& merged,
+nlohmann::json writeMaps(const MergeOptions& options, const BakeOptions& baked, const MergedScene& merged,
                          const PartHeader& whole, const Tallies& tallies) {
-  baked.format = options.format;
   const Baked maps = resolveBake(merged.scene, merged.plan, baked, whole, tallies);
   nlohmann::json report = makeReport({baked, merged.scene, merged.plan, whole, &maps});
   writeDlm(*options.output, merged.scene, maps.uv, maps.maps, provenanceOf(report), options.format);
   return report;
+}
+
+/// What the parts say of the bake, and where its maps go.
+BakeOptions optionsOfMaps(const MergeOptions& options, BakeOptions baked, const PartHeader& whole) {
+  baked.format = options.format;
+  baked.output = *options.output;
+  baked.report = options.report;
+  if (whole.sceneName != kBuiltinSceneName) baked.scene = whole.sceneName;
+  return baked;
+}
+
+/// The report of light maps with its page; that of a part or a check is JSON alone.
+nlohmann::json writeReportOfMaps(const BakeOptions& baked, const MergedScene& merged, const PartHeader& whole,
+                                 const PlayerPictures& player, nlohmann::json report) {
+  const PhotonScene scene(merged.scene, {baked.isa, true});
+  return writeReport({baked, scene, merged.plan, player, !whole.environmentName.empty()}, whole, nullptr,
+                     std::move(report));
 }
 
 /// Of a merge that made no maps.
@@ -169,7 +192,7 @@ nlohmann::json shortReport(const PartHeader& whole) {
 
 }  // namespace
 
-nlohmann::json merge(const MergeOptions& options) {
+nlohmann::json merge(const MergeOptions& options, const PlayerPictures& player) {
   const std::vector<fs::path> files = partFiles(options.inputs);
   checkOutput(options, files);
   PartSet parts = joinParts(files, chosenMembers(options));
@@ -178,32 +201,39 @@ nlohmann::json merge(const MergeOptions& options) {
   BakeOptions baked = optionsOf(whole, name);
   tellOf(whole, options, files[0].parent_path());
   ReadingRate rate((whole.tallyBytes() + whole.sceneBytes) * files.size());
-  nlohmann::json report;
+  const auto complete = [&](nlohmann::json report) {
+    report["parts"] = files.size();
+    report["missing_photons"] = toJson(missingPhotons(whole));
+    if (whole.direct) report["missing_samples"] = toJson(missingSamples(whole));
+    report["merge_seconds"] = rate.elapsed();
+    report["peak_memory_bytes"] = peakMemoryBytes();
+    return report;
+  };
+  const auto writeShort = [&](nlohmann::json report) {
+    report = complete(std::move(report));
+    if (options.report) writeFileAtomically(reportFiles(*options.report).json, dumpJson(report));
+    return report;
+  };
   if (!options.output) {
     verifyParts(parts, std::ref(rate));
-    report = shortReport(whole);
+    nlohmann::json report = shortReport(whole);
     report.erase("content_hash");
-  } else {
-    chooseKernel(options, baked, whole);
-    checkMemory(whole, !toPart(options));
-    if (toPart(options)) checkPartOutput(*options.output, whole.photons);
-    Tallies tallies = whole.makeTallies();
-    const std::vector<std::uint8_t> glb = sumParts(parts, tallies, std::ref(rate));
-    whole.content = tallies.contentHash();
-    if (toPart(options)) {
-      writePart(*options.output, whole, glb, tallies);
-      report = shortReport(whole);
-    } else {
-      report = writeMaps(options, baked, MergedScene(glb, baked, whole, name), whole, tallies);
-    }
+    return writeShort(std::move(report));
   }
-  report["parts"] = files.size();
-  report["missing_photons"] = toJson(missingPhotons(whole));
-  if (whole.direct) report["missing_samples"] = toJson(missingSamples(whole));
-  report["merge_seconds"] = rate.elapsed();
-  report["peak_memory_bytes"] = peakMemoryBytes();
-  if (options.report) writeFileAtomically(*options.report, dumpJson(report));
-  return report;
+  chooseKernel(options, baked, whole);
+  checkMemory(whole, !toPart(options));
+  if (toPart(options)) checkPartOutput(*options.output, whole.photons);
+  Tallies tallies = whole.makeTallies();
+  const std::vector<std::uint8_t> glb = sumParts(parts, tallies, std::ref(rate));
+  whole.content = tallies.contentHash();
+  if (toPart(options)) {
+    writePart(*options.output, whole, glb, tallies);
+    return writeShort(shortReport(whole));
+  }
+  baked = optionsOfMaps(options, std::move(baked), whole);
+  const MergedScene merged(glb, baked, whole, name);
+  nlohmann::json report = complete(writeMaps(options, baked, merged, whole, tallies));
+  return options.report ? writeReportOfMaps(baked, merged, whole, player, std::move(report)) : report;
 }
 
 }  // namespace lucarne

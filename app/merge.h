@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/bake_options.h"
+#include "app/report_pictures.h"
 
 namespace lucarne {
 
@@ -26,8 +27,8 @@ struct MergeOptions {
 
 /// Returns the report: that of a bake of the same photons, and "parts", "missing_photons" ([begin, end] each). Throws
 /// Error(mergeRefused) with one line that names the files and what differs; then nothing is written. Inputs are never
-/// touched.
-nlohmann::json merge(const MergeOptions& options);
+/// touched. A report of light maps gets its page, as that of a bake.
+nlohmann::json merge(const MergeOptions& options, const PlayerPictures& player = {});
 
 /// The files that the inputs stand for, in the order given; of a folder, its .part files by name. InputError for what
 /// is not there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "app/bake_command.h"
 #include "app/bake_identity.h"
 #include "base/units.h"
 

@@ -3,23 +3,22 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/plan_file.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/units.h"
-#include "cli/choices.h"
 #include "cli/commands.h"
 #include "cli/interrupts.h"
-#include "cli/layout_options.h"
+#include "cli/player_of_this_program.h"
+#include "cli/quality_options.h"
 
 namespace lucarne {
 namespace {
 
 /// Numbers arrive as text, so that 20M and 1e9 work and nonsense is refused in our words.
 struct BakeTexts {
-  LayoutTexts layout;
-  std::string scene, environment, report, seed = "0", part, photonRange, checkpoint = "5m", time, targetError, memory;
-  std::optional<double> kernelWidth;
-  std::string dropError = "0%";
+  QualityTexts quality;
+  std::string scene, report, plan, part, photonRange, checkpoint = "5m", time, targetError, memory;
 };
 
 /// The two numbers of "A/B" or "A:B".
@@ -51,43 +50,32 @@ void finishStopRules(BakeOptions& options, const BakeTexts& texts, bool photonsG
   if (!photonsGiven && (options.timeLimit || options.targetError > 0)) options.photons = kUnlimitedPhotons;
 }
 
-void finish(BakeOptions& options, const BakeTexts& texts, bool photonsGiven) {
+void finish(BakeOptions& options, const BakeTexts& texts, const std::set<std::string>& typed) {
   if (!texts.scene.empty()) options.scene = texts.scene;
-  finishSky(options, texts.environment);
   if (!texts.report.empty()) options.report = texts.report;
-  finishLayout(options, texts.layout);
-  options.seed = parseCount("--seed", texts.seed);
-  options.kernel.width = texts.kernelWidth.value_or(defaultKernelWidth(options.kernel.shape));
-  options.dropError = parsePercentage("--drop-error", texts.dropError);
+  finishQuality(options, texts.quality);
   options.checkpointSeconds = texts.checkpoint == "0" ? 0 : parseDuration("--checkpoint", texts.checkpoint);
   if (!texts.memory.empty()) options.memoryBytes = parseBytes("--memory", texts.memory);
+  const bool photonsGiven = typed.contains("--photons") || !texts.plan.empty();
   finishStopRules(options, texts, photonsGiven);
   finishPiece(options, texts, photonsGiven);
+  if (!texts.plan.empty()) options = withPlan(options, typed, texts.plan);
 }
 
-void addQuality(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
-  addLayoutOptions(cmd, o, texts.layout);
+void addStopRules(CLI::App& cmd, BakeTexts& texts) {
   cmd.add_option("--time", texts.time,
                  "end after so long (8h, 90m), the time that earlier runs traced counted in; no limit of photons then "
                  "unless --photons is given");
   cmd.add_option("--target-error", texts.targetError,
                  "end when the estimated relative error is so small (2%); no limit of photons then unless --photons is "
                  "given");
-  addChoice<KernelShape>(cmd, "--kernel", o.kernel.shape, kernelShapes(), "pyramid", kKernelHelp);
-  cmd.add_option("--kernel-width", texts.kernelWidth,
-                 "distance in texels at which the kernel ends: wider is smoother and blurrier; of adaptive the widest")
-      ->default_str("1.5, of adaptive 4.5");
-  addSeams(cmd, o.seams, "fit");
-  cmd.add_option("--drop-error", texts.dropError, kDropHelp)->capture_default_str();
-  cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();
-  addChoice<SamplerKind>(cmd, "--sampler", o.sampler, {{"random", SamplerKind::random}, {"sobol", SamplerKind::sobol}},
-                         "sobol", "numbers of the photons: sobol (low discrepancy, less noise) or random");
-  addChoice<LightPart>(cmd, "--light", o.light,
-                       {{"all", LightPart::all}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
-                       "all", "which light to store: all, direct or indirect");
 }
 
 void addPieces(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
+  cmd.add_option(
+      "--plan", texts.plan,
+      "PLAN.json of `lucarne check --plan`: takes the scene and every setting that decides the result from it; "
+      "refuses options that contradict it, and another scene");
   cmd.add_option("--part", texts.part,
                  "K/N: bake part K of N (from 1) of the photons, to be merged: writes NAME.part instead of NAME.dlm");
   cmd.add_option("--photon-range", texts.photonRange, "A:B: bake photons A to B (without B) alone, as a part");
@@ -101,13 +89,13 @@ void addPieces(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
 }
 
 void addRunning(CLI::App& cmd, BakeOptions& o, BakeTexts& texts) {
-  addMachineOptions(cmd, o);
+  addTracingOptions(cmd, o);
   cmd.add_option("--memory", texts.memory,
                  "16G: no process takes more; a bake that would is refused and told what would fit. Default: what is free");
-  cmd.add_option("--report", texts.report,
-                 "write what happened to a JSON file: rates, energy ledger, errors, what was left out");
-  cmd.add_option("--isa", o.isa,
-                 "Embree's instruction set (avx512, avx2, sse4.2); bakes to be compared bit by bit need the same");
+  cmd.add_option(
+      "--report", texts.report,
+      "R.json or R.html writes both: what happened (rates, energy ledger, errors, warnings, what was left out) for "
+      "programs, and a page for people with pictures of the cameras; another name: the JSON alone");
   addChoice<ProgressStyle>(
       cmd, "--progress", o.progress, {{"line", ProgressStyle::line}, {"json", ProgressStyle::json}}, "line",
       "line: one live line on a terminal, a line a minute in a log; json: an object a line on stdout, one a second");
@@ -136,19 +124,16 @@ void addBake(CLI::App& app, Action& action) {
   cmd->add_option("SCENE", texts->scene, "a .glb or .gltf file in metres; none: the built-in room");
   cmd->add_option("-o,--output", options->output, "the light maps, a folder NAME.dlm; NAME.part for a part")
       ->required();
-  addQuality(*cmd, *options, *texts);
-  addSkyOptions(*cmd, *options, texts->environment);
-  cmd->add_flag_callback(
-      "--no-guide", [options] { options->guidedEmission = false; },
-      "do not aim the light of suns and skies at where a pilot finds it useful (windows)");
+  addQualityOptions(*cmd, *options, texts->quality);
+  addStopRules(*cmd, *texts);
   addPieces(*cmd, *options, *texts);
   addRunning(*cmd, *options, *texts);
   cmd->callback([options, texts, cmd, &action] {
     action = [options, texts, cmd] {
-      finish(*options, *texts, cmd->count("--photons") > 0);
+      finish(*options, *texts, typedOptions(*cmd));
       setQuiet(options->quiet);
       Interrupts interrupts;
-      const nlohmann::json report = bake(*options, interrupts.control());
+      const nlohmann::json report = bake(*options, interrupts.control(), playerOfThisProgram());
       if (!report.is_null()) tell(*options, report);  // null: not the first of MPI ranks
     };
   });

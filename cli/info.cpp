@@ -18,9 +18,14 @@ void addInfo(CLI::App& app, Action& action) {
   const auto picture = std::make_shared<std::string>();
   cmd->add_option("--picture", *picture,
                   "of a .dlm: write its atlas as one PNG: irradiance, error, photons and the light of each direction");
+  const auto scene = std::make_shared<std::string>();
+  cmd->add_option("--scene", *scene,
+                  "of a .part or .dlm: does it still match this scene file? if not, what differs, in words; cameras and "
+                  "names do not count");
   cmd->callback([=, &action] {
     action = [=] {
-      const nlohmann::json d = describe(*path);
+      nlohmann::json d = describe(*path);
+      if (!scene->empty()) d["compared_with_scene"] = compareWithScene(*path, *scene);
       if (!picture->empty()) writeContactSheet(*path, *picture);
       const std::string text = *json ? dumpJson(d) : toText(d);
       std::fputs(text.c_str(), stdout);

@@ -9,6 +9,7 @@
 #include "cli/choices.h"
 #include "cli/commands.h"
 #include "cli/layout_options.h"
+#include "cli/player_of_this_program.h"
 
 namespace lucarne {
 namespace {
@@ -26,7 +27,7 @@ void addOptions(CLI::App& cmd, MergeOptions& o, std::string& dropError) {
   addSeams(cmd, o.seams, "as baked");
   cmd.add_option("--drop-error", dropError, kDropHelp)->default_str("as baked");
   addFormatOptions(cmd, o.format);
-  cmd.add_option("--report", o.report, "write what happened to a JSON file");
+  cmd.add_option("--report", o.report, "write what happened to R.json and, of light maps, as a page to R.html");
   cmd.add_flag("--quiet", o.quiet, "print errors only");
 }
 
@@ -53,7 +54,7 @@ void addMerge(CLI::App& app, Action& action) {
       if (!dropError->empty()) options->dropError = parsePercentage("--drop-error", *dropError);
       if (*verify) options->output.reset();
       if (!*verify && !options->output) throw UsageError("-o NAME.dlm or NAME.part is missing (or --verify)");
-      tell(*options, merge(*options));
+      tell(*options, merge(*options, playerOfThisProgram()));
     };
   });
 }

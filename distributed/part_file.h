@@ -13,7 +13,7 @@
 
 namespace lucarne {
 
-/// Written aside, flushed, renamed. Fills in header.sceneBytes, lightEntries, texels and content from what it is given.
+/// Written aside, flushed, renamed. Fills in header.sceneBytes, sceneFile, lightEntries, texels and content from what it is given.
 /// Throws Error as AtomicFile does, and a std::logic_error when a tally is negative (it has overflowed).
 void writePart(const std::filesystem::path& path, PartHeader header, std::span<const std::uint8_t> scene,
                const Tallies& tallies);

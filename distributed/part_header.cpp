@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kFormat = "lucarne-part";
-constexpr std::uint64_t kVersion = 3;
+constexpr std::uint64_t kVersion = 4;
 
 Hash128 hashAt(const JsonView& view) {
   const std::optional<Hash128> hash = Hash128::parse(view.text());
@@ -157,6 +157,7 @@ void PartHeader::add(const PartHeader& other) {
   photons.add(other.photons);
   ledger += other.ledger;
   microseconds += other.microseconds;
+  rates = {};
   if (!direct) return;
   direct->samples.add(other.direct->samples);
   direct->counts += other.direct->counts;
@@ -197,6 +198,7 @@ json toJson(const PartHeader& h) {
           {"scene_name", h.sceneName},
           {"environment_name", h.environmentName},
           {"scene_hash", h.identity.scene.hex()},
+          {"scene_file_hash", h.sceneFile.hex()},
           {"settings", h.identity.settings},
           {"settings_hash", h.identity.settingsHash().hex()},
           {"resolve", h.identity.resolve},
@@ -205,6 +207,7 @@ json toJson(const PartHeader& h) {
           {"makers", makersToJson(h.makers)},
           {"planned", planned},
           {"microseconds", h.microseconds},
+          {"rates", h.rates.toJson()},
           {"scene_bytes", h.sceneBytes},
           {"tally_sets", sets},
           {"content_hash", h.content.hex()}};
@@ -217,6 +220,7 @@ PartHeader partHeaderFrom(const JsonView& v) {
   h.sceneName = v.at("scene_name").text();
   h.environmentName = v.at("environment_name").text();
   h.identity.scene = hashAt(v.at("scene_hash"));
+  h.sceneFile = hashAt(v.at("scene_file_hash"));
   h.identity.settings = flatObject(v.at("settings"));
   h.identity.resolve = flatObject(v.at("resolve"));
   h.identity.layout = hashAt(v.at("layout_hash"));
@@ -230,6 +234,7 @@ PartHeader partHeaderFrom(const JsonView& v) {
   h.planned = {planned.at("photons").count(),
                static_cast<std::uint64_t>(planned.at("parts").integer(0, static_cast<std::int64_t>(kMostParts))), 0};
   h.microseconds = v.at("microseconds").count();
+  h.rates = RateCurve::from(v.at("rates"));
   h.sceneBytes = v.at("scene_bytes").count();
   const JsonView sets = v.at("tally_sets");
   const bool known = sets.size() == 1 || (sets.size() == 2 && sets.at(1).at("name").text() == "direct");

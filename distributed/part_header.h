@@ -1,7 +1,6 @@
 // What a part says of itself: of which bake it is, how it was made, and what is in it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "base/hash.h"
 #include "base/json.h"
 #include "distributed/index_set.h"
+#include "distributed/rate_curve.h"
 #include "dlm/direct_gather.h"
 #include "tracer/transport/ledger.h"
 
@@ -27,7 +27,7 @@ class PartError : public InputError {
 /// Of which bake: what decides every bit of the tallies, and how maps are made of them. Parts that differ in it are not
 /// of one bake.
 struct BakeIdentity {
-  Hash128 scene;            // of the scene's bytes, packed as one GLB
+  Hash128 scene;            // of what light touches in it: lightHash()
   nlohmann::json settings;  // flat object: all that photons and tallies depend on, the seed among them
   nlohmann::json resolve;   // flat object: the kernel. Tallies do not depend on it
   Hash128 layout;           // of charts, texels, directions and the order of tallies
@@ -71,19 +71,19 @@ struct PartHeader {
   Ledger ledger;
   std::uint64_t microseconds = 0;  // of tracing, all runs and machines together
   std::optional<DirectPart> direct;  // none: direct light is not gathered
+  RateCurve rates;                   // of tracing; none of a sum of parts, which have no clock in common
   std::uint64_t sceneBytes = 0, lightEntries = 0, texels = 0;
-  Hash128 content;  // of the tallies: content_hash
+  Hash128 sceneFile;  // of the bytes of the scene in this part, packed as one GLB: cameras, names and all
+  Hash128 content;    // of the tallies: content_hash
 
   /// Takes in the header of another part of the same bake, whose photons and samples this one does not hold. In any order of taking
-  /// in, the result is the same. Leaves `content` to whoever adds the tallies.
+  /// in, the result is the same, but that the file of the scene stays this one's. Leaves `content` to whoever adds the
+  /// tallies.
   void add(const PartHeader& other);
   std::uint64_t tallyBytes() const;
   /// Zero tallies of this size.
   Tallies makeTallies() const;
 };
-
-/// Members of `resolve`, all of them.
-inline constexpr std::array kResolveMembers = {"kernel", "kernel_width", "seams", "drop_error"};
 
 /// Where two identities differ, in words that fit into "… differ in …": "seed: 0 and 1". Empty where they agree.
 /// Members of `resolve` that are among `chosen` do not count.

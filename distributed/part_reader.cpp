@@ -65,7 +65,7 @@ class PartStream {
     }
     const std::string seal = partSeal(reader_.hash());
     expect(seal);
-    if (content_.finish() != header_.content || sceneHash_.finish() != header_.identity.scene) failAltered(path_);
+    if (content_.finish() != header_.content || sceneHash_.finish() != header_.sceneFile) failAltered(path_);
   }
 
  private:

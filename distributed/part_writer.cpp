@@ -60,6 +60,7 @@ void writeTallies(const ExrRows& rows, PartLayer layer, std::span<const std::int
 void writePart(const std::filesystem::path& path, PartHeader header, std::span<const std::uint8_t> scene,
                const Tallies& tallies) {
   header.sceneBytes = scene.size();
+  header.sceneFile = hashBytes(scene);
   header.lightEntries = tallies.light().size() / kLightChannels;
   header.texels = tallies.statistics().size() / kStatisticsChannels;
   header.content = tallies.contentHash();

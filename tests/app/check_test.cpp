@@ -37,7 +37,7 @@ struct Checked {
   PhotonScene photonScene;
   BakePlan plan;
   CheckInput input;
-  CheckWarnings warnings;
+  CheckWarnings warnings, failures;
 };
 
 /// A closed room of two metres, grey, its fronts inside.
@@ -215,7 +215,7 @@ TEST(CheckResources, MapsOfABakeAreNoLargerThanSaid) {
   options.keepAllDirections = true;
   options.threads = 2;
   Checked c(builder.build(), options);
-  const json r = checkResources(c.input, c.warnings);
+  const json r = checkResources(c.input, c.warnings, c.failures);
   EXPECT_EQ(r["tally_bytes"], c.plan.tallies.bytes());
   EXPECT_EQ(r["expected_peak_memory_bytes"], 1'000'000 + 2 * c.plan.tallies.bytes());
   const Baked baked = bakeScene(c.photonScene, c.plan, c.options, [](const RunProgress&) { return true; });
@@ -227,7 +227,7 @@ TEST(CheckTime, AClosedRoomWastesNothingAndAnOpenOneHalf) {
   closed.addLight(light(LightKind::point, Rgb{10.f}));
   Checked c(closed.build());
   const json layout = checkLayout(c.input, c.warnings);
-  const json time = checkTime(c.input, layout, c.warnings);
+  const json time = checkTime(c.input, layout, c.warnings, c.failures);
   EXPECT_GT(time["photons_per_second"].get<double>(), 0);
   EXPECT_TRUE(std::isfinite(time["seconds"].get<double>()));
   EXPECT_EQ(time["missed"], 0.0);
@@ -243,7 +243,7 @@ TEST(CheckTime, AClosedRoomWastesNothingAndAnOpenOneHalf) {
   open.addQuad({-1000, 0, 1000}, {1000, 0, 1000}, {1000, 0, -1000}, {-1000, 0, -1000});
   open.addLight(light(LightKind::point, Rgb{10.f}));
   Checked o(open.build());
-  const json openTime = checkTime(o.input, checkLayout(o.input, o.warnings), o.warnings);
+  const json openTime = checkTime(o.input, checkLayout(o.input, o.warnings), o.warnings, o.failures);
   EXPECT_NEAR(openTime["missed"].get<double>(), 0.5, 5 * 0.5 / std::sqrt(512.0));
   EXPECT_EQ(openTime["lost"], 0.0);
 }
@@ -254,7 +254,7 @@ TEST(CheckTime, LightOnBlackBacksIsLostAndWarnedOf) {
   builder.addBox({0, 0, 0}, {2, 2, 2});  // the lamp is inside, the fronts outside
   builder.addLight(light(LightKind::point, Rgb{10.f}));
   Checked c(builder.build());
-  const json time = checkTime(c.input, checkLayout(c.input, c.warnings), c.warnings);
+  const json time = checkTime(c.input, checkLayout(c.input, c.warnings), c.warnings, c.failures);
   EXPECT_EQ(time["lost"], 1.0);
   EXPECT_EQ(time["missed"], 0.0);
   EXPECT_TRUE(c.warned("lost"));

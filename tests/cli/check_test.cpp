@@ -39,7 +39,7 @@ std::string triangle(const std::string& members) {
 TEST_F(CheckProgram, JsonHasTheAgreedKeys) {
   const json c = check("");
   for (const char* key : {"kind", "program", "scene", "modelled", "left_out", "lights", "uv", "layout", "resources",
-                          "time", "settings", "warnings"})
+                          "time", "settings", "warnings", "surfaces", "failures", "plan"})
     EXPECT_TRUE(c.contains(key)) << key;
   for (const char* key : {"tally_bytes", "expected_peak_memory_bytes", "free_memory_bytes", "map_bytes", "dlm_bytes",
                           "checkpoint_bytes", "free_disk_bytes"})
@@ -112,12 +112,27 @@ TEST_F(CheckProgram, BadFilesAndWrongUsageEndInOneLine) {
     EXPECT_EQ(o.out, "") << arguments;
   };
   refused("cut.glb", 3, "cut.glb");
+  write("syntax.gltf", "{\"asset\": ]}");
+  refused("syntax.gltf", 3, "syntax.gltf: its JSON cannot be read: parse error at line 1");
   refused("nothere.glb --json", 3, "nothere.glb");
   refused("--directions 0", 2, "--directions");
   refused("--photons -3", 2, "--photons");
   refused("--threads 5000", 2, "--threads");
   refused("--format ldr", 2, "half");
   refused("-o x.dlm", 2, "-o");
+}
+
+TEST_F(CheckProgram, ABakeThatWouldFailEndsWithThreeAndSaysWhy) {
+  // Tallies of 63 bits end at some 10^11 photons, which a bake would find out after weeks.
+  const ProgramOutcome full = run(std::string("check") + kQuickScene + "--photons 1e13 --plan plan.json");
+  EXPECT_EQ(full.code, 3);
+  EXPECT_NE(full.out.find("would fail"), std::string::npos) << "all is told nevertheless";
+  EXPECT_NE(full.err.find("the tallies would be full after"), std::string::npos) << full.err;
+  EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1);
+  EXPECT_FALSE(exists("plan.json")) << "a plan that no bake can follow";
+  const ProgramOutcome charts = run(std::string("check") + kQuickScene + "--texels 1");
+  EXPECT_EQ(charts.code, 3);
+  EXPECT_NE(charts.err.find("the bake would fail: "), std::string::npos) << charts.err;
 }
 
 TEST_F(CheckProgram, LargeTalliesAreNotTouchedForASample) {

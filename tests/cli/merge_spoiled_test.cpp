@@ -96,7 +96,7 @@ constexpr Damage kDamages[] = {
     {"header of no object", [](std::string& b) { setText(b, "[]"); }, "must be an object"},
     {"header nested deeply", [](std::string& b) { setText(b, std::string(1'000'000, '[')); }, "nested"},
     {"header that claims to be long", [](std::string& b) { b[kTextAt - 1] = '\x7f'; }, "cut short"},
-    {"another version", [](std::string& b) { replace(b, "\"version\":3", "\"version\":9"); },
+    {"another version", [](std::string& b) { replace(b, "\"version\":4", "\"version\":9"); },
      "version is one that this program does not know"},
     {"another kind of tallies", [](std::string& b) { replace(b, "\"name\":\"photons\"", "\"name\":\"moments\""); },
      "does not know"},

@@ -48,7 +48,7 @@ TEST_F(Resume, OfAnotherBakeIsRefusedWithTheFieldNamed) {
   expectRefused(scene + "--photons 1G --light direct", 4, "light: ");
   expectRefused(std::string(kQuickScene) + "--photons 1G --density 5", 4, "texels_per_metre: 5.0 and 10.0");
   expectRefused(scene + "--photons 1G --isa sse4.2", 4, "ray_caster: ");
-  expectRefused("--keep-all-directions --density 10 --photons 1G", 4, "scene: ");
+  expectRefused("--keep-all-directions --density 10 --photons 1G", 4, "differ in the scene (");
   expectRefused(scene + "--photons 10", 4, "photons 0..");
 }
 

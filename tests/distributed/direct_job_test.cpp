@@ -1,6 +1,7 @@
 // Samples of direct light are shared out, saved, merged and taken up again as photons are, to the same bits.
 #include <gmock/gmock.h>
 
+#include "app/bake_command.h"
 #include "app/bake_identity.h"
 #include "app/bake_scene.h"
 #include "distributed/bake_job.h"

@@ -32,6 +32,7 @@ void expectComesBack(const MadeUpPart& part, const TempFolder& folder) {
   EXPECT_EQ(h.content, part.tallies.contentHash());
   PartHeader expected = part.header;
   expected.sceneBytes = h.sceneBytes;
+  expected.sceneFile = h.sceneFile;
   expected.lightEntries = h.lightEntries;
   expected.texels = h.texels;
   expected.content = h.content;

@@ -66,6 +66,8 @@ Json parseGltfJson(std::string_view text, const Place& file) {
     json = Json::parse(text.begin(), text.end());
   } catch (const Json::exception& e) {
     std::string reason = e.what();
+    if (const std::size_t end = reason.find("] "); reason.starts_with("[json.exception.") && end != std::string::npos)
+      reason.erase(0, end + 2);  // the library's own name for the error
     if (reason.size() > 200) reason.resize(200);
     for (char& c : reason) {
       if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = '?';
