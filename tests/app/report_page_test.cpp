@@ -101,10 +101,11 @@ TEST(ReportPage, SaysWhatHappened) {
 TEST(ReportPage, OfAReportThatLacksMembersIsAPageAllTheSame) {
   const std::string page = reportPage(json::object(), {});
   EXPECT_THAT(page, HasSubstr("</html>"));
-  json report = reportOf("room");
-  for (const auto& [key, value] : reportOf("room").items()) {
-    report[key] = nullptr;
-    EXPECT_THAT(reportPage(report, {}), HasSubstr("</html>")) << key;
+  const json whole = reportOf("room");
+  for (const auto& [key, value] : whole.items()) {
+    json lacking = whole;
+    lacking[key] = nullptr;
+    EXPECT_THAT(reportPage(lacking, {}), HasSubstr("</html>")) << key;
   }
 }
 
