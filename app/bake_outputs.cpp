@@ -66,7 +66,8 @@ nlohmann::json writeMaps(const BakeSetup& setup, const BakeState& state, const s
   header.content = state.tallies.contentHash();
   const Baked baked = resolveBake(packed.scene, plan, options, header, state.tallies, &setup.scene.rayCaster());
   nlohmann::json report = makeReport({options, packed.scene, plan, header, &baked});
-  report["ended_by"] = nameOf(end);
+  // Of all its photons a bake is what a merge of them is, to the last bit.
+  if (end != JobEnd::photons) report["ended_by"] = nameOf(end);
   removeTemporaries(resolveTarget(path));
   writeDlm(path, packed.scene, baked.uv, baked.maps, provenanceOf(report), options.format);
   return report;
