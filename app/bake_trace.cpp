@@ -120,7 +120,9 @@ JobResult traceBake(const BakeSetup& setup, BakeState& state, CheckpointFolder& 
     if (setup.root())
       logInfo("gathering direct light: samples " + toText(IndexSet(samplesOf(options))) + " of every texel");
   }
-  const bool json = options.progress == ProgressStyle::json, silent = (options.quiet && !json) || !setup.root();
+  const bool json = options.progress == ProgressStyle::json,
+             traced = state.header.photons.contains(range),  // a finished part was there: no progress to show
+             silent = (options.quiet && !json) || !setup.root() || traced;
   const StopRules rules = rulesOf(setup, state);
   ProgressLine progress("baking", goalOf(options, rules), silent, standardProgressOutput(json));
   progress.startFrom(state.header.photons.count(), state.header.ledger.rays);

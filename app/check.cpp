@@ -15,7 +15,6 @@
 #include "app/plan_file.h"
 #include "app/trace_variant.h"
 #include "base/error.h"
-#include "base/memory.h"
 
 namespace lucarne {
 namespace {
@@ -84,7 +83,7 @@ nlohmann::json checkScene(const BakeOptions& asked, const std::filesystem::path&
   prepareEmission(photonScene, guided);
   const BakePlan plan = planForCheck(packed.scene, options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  nlohmann::json checked = sectionsOf({options, photonScene, plan, packed.glb.size(), seconds, peakMemoryBytes()});
+  nlohmann::json checked = sectionsOf({options, photonScene, plan, packed.glb.size(), seconds, MemorySoFar::now()});
   checked["plan"] = planOf(guided, headerOf(guided, packed, photonScene, plan), planFolder);
   return checked;
 }

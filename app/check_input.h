@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/bake_needs.h"
 #include "app/bake_plan.h"
 #include "tracer/transport/photon_scene.h"
 
@@ -15,7 +16,7 @@ struct CheckInput {
   const BakePlan& plan;
   std::uint64_t glbBytes = 0;   // of the packed scene
   double secondsOfSetup = 0;    // reading, charts, ray caster
-  std::uint64_t peakBytes = 0;  // of this process so far: the scene with all that is built on it, no tallies
+  MemorySoFar memory{};         // the scene with all that is built on it, no tallies
 
   const Scene& scene() const { return photonScene.scene(); }
 };

@@ -117,14 +117,6 @@ std::uint64_t mapBytes(const TallyLayout& tallies) {
   return bytes;
 }
 
-/// Of tallies while tracing: threads have their own while all together are small.
-std::uint64_t tracingBytes(const CheckInput& in) {
-  const std::uint64_t bytes = in.plan.tallies.bytes(), gathered = tallyBytes(in.plan, in.options) - bytes;
-  const PhotonRunOptions run = runOptions(in.options);
-  const std::uint64_t all = bytes * static_cast<std::uint64_t>(run.threads);
-  return (all <= run.privateTallyBytes ? all : bytes) + gathered;
-}
-
 std::uint64_t freeDiskBytes() {
   std::error_code failed;
   const auto space = std::filesystem::space(".", failed);
@@ -132,18 +124,14 @@ std::uint64_t freeDiskBytes() {
 }
 
 struct Needs {
-  std::uint64_t maps, memory, disk;  // maps: tallies and maps, what a bake asks for before it starts
+  std::uint64_t memory, disk;
 };
 
 void warnOfResources(const Needs& needs, std::uint64_t memory, std::uint64_t disk, CheckWarnings& warnings,
                      CheckWarnings& failures) {
-  if (needs.maps > memory) {
-    failures.add("memory", "light maps need " + formatBytes(needs.maps) + " and " + formatBytes(memory) +
+  if (needs.memory > memory)
+    failures.add("memory", "the bake takes up to " + formatBytes(needs.memory) + " and " + formatBytes(memory) +
                                " are free; lower --density, --texels or --directions");
-  } else if (needs.memory > memory) {
-    warnings.add("memory", "the bake may run out of memory: it takes about " + formatBytes(needs.memory) + " and " +
-                               formatBytes(memory) + " are free; lower --density, --texels or --directions");
-  }
   if (needs.disk > disk)
     warnings.add("disk", "light maps and saved states take up to " + formatBytes(needs.disk) + " and " +
                              formatBytes(disk) + " are free in this folder");
@@ -178,12 +166,11 @@ nlohmann::json checkLayout(const CheckInput& in, CheckWarnings& warnings) {
 }
 
 nlohmann::json checkResources(const CheckInput& in, CheckWarnings& warnings, CheckWarnings& failures) {
-  const std::uint64_t tallies = tallyBytes(in.plan, in.options),
-                      maps = tallies + memoryOfMaps(in.plan.tallies.bytes());
-  const std::uint64_t peak = in.peakBytes + std::max(tracingBytes(in), maps);
+  const std::uint64_t tallies = tallyBytes(in.plan, in.options);
+  const std::uint64_t peak = predictMemory(in.options, in.scene(), in.plan, in.memory).peak();
   const std::uint64_t dlm = dlmBytes(in), states = 3 * (tallies + in.glbBytes);
   const std::uint64_t memory = availableMemoryBytes(), disk = freeDiskBytes();
-  warnOfResources({maps, peak, dlm + states}, memory, disk, warnings, failures);
+  warnOfResources({peak, dlm + states}, memory, disk, warnings, failures);
   return {{"tally_bytes", tallies},
           {"expected_peak_memory_bytes", peak},
           {"free_memory_bytes", memory},

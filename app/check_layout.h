@@ -11,11 +11,10 @@ namespace lucarne {
 /// largest_chart {width, height, material}, tiny_charts (with less surface than a tenth of a texel) and tiny_charts_area_share (of all).
 nlohmann::json checkLayout(const CheckInput& input, CheckWarnings& warnings);
 
-/// Bytes: tally_bytes; expected_peak_memory_bytes = peak of this check without tallies + the larger of tallies of all
-/// threads while tracing and tallies + memoryOfMaps() while making maps; free_memory_bytes; at most map_bytes in memory
+/// Bytes: tally_bytes; expected_peak_memory_bytes as bake_needs.h predicts it; free_memory_bytes; at most map_bytes in memory
 /// and dlm_bytes on disk before compression; checkpoint_bytes (two states and one being written); free_disk_bytes of
 /// the folder it is run in.
-/// Failures: light maps for which a bake would not start.
+/// Failures: more memory than is free, for which a bake would not start.
 nlohmann::json checkResources(const CheckInput& input, CheckWarnings& warnings, CheckWarnings& failures);
 
 }  // namespace lucarne

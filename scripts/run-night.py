@@ -223,16 +223,16 @@ class Night:
         """Stops the bake when a state is seen half written, makes sure that it still is, and kills it then."""
         patience = time.monotonic() + max(60, 20 * self.a.checkpoint)
         half = -1
-        while self.running() and half < 0 and time.monotonic() < patience:
+        while self.running() and half <= 0 and time.monotonic() < patience:
             if self.being_written() < 0:
                 time.sleep(0.0005)
                 continue
             self.process.send_signal(signal.SIGSTOP)
             time.sleep(0.05)
             half = self.being_written()
-            if half < 0:
+            if half <= 0:
                 self.process.send_signal(signal.SIGCONT)
-        if half < 0:
+        if half <= 0:
             self.log("no state was caught while it was written")
         return self.end(signal.SIGKILL), {"half_written_bytes": half}
 

@@ -136,7 +136,7 @@ TEST_F(Play, ReplaysAsRenderDoesAndTellsItsTimes) {
   ASSERT_EQ(window.rgba.size(), frame.rgba.size());
   int largest = 0;
   for (int y = 0; y < 240; ++y) {
-    for (int x = 330; x < 400; ++x) {
+    for (int x = 352; x < 400; ++x) {
       const auto i = static_cast<std::size_t>(4 * (y * 400 + x));
       for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, std::abs(window.rgba[i + c] - frame.rgba[i + c]));
     }
