@@ -114,7 +114,8 @@ TEST_F(Interrupt, ASecondSignalStopsAtOnceAndTheLastStateIsWhole) {
     ::kill(bake.pid(), SIGINT);
     sleepFor(60);
     ::kill(bake.pid(), SIGINT);  // lands before the end or after it
-    EXPECT_EQ(bake.exitCode(), 130) << log();
+    const int code = bake.exitCode();
+    EXPECT_TRUE(code == 130 || code == -1) << "once all is saved a signal just ends the program: " << code << log();
   }
   EXPECT_GE(savedPhotons(), saved);
   expectUndisturbed(savedPhotons() + 50'000);
