@@ -3,6 +3,7 @@
 #include <array>
 
 #include "app/bake_report.h"
+#include "app/used_materials.h"
 #include "base/units.h"
 
 namespace lucarne {
@@ -57,15 +58,6 @@ constexpr std::array kMaterialFeatures = {
         "second uv set",
         [](const Material& m) { return anyTexture(m, [](const TextureUse& use) { return use && use.uvSet == 1; }); }},
 };
-
-std::vector<const Material*> usedMaterials(const Scene& scene) {
-  std::vector<std::uint8_t> used(scene.materials.size(), 0);
-  for (const Triangle& t : scene.triangles) used[t.material] = 1;
-  std::vector<const Material*> list;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i] != 0) list.push_back(&scene.materials[i]);
-  return list;
-}
 
 template <class Has>
 std::size_t countTriangles(const Scene& scene, const Has& has) {

@@ -6,6 +6,7 @@
 #include "app/mesh_difference.h"
 #include "app/named_pairs.h"
 #include "app/unpaired.h"
+#include "app/used_materials.h"
 #include "base/units.h"
 #include "tracer/scene/light_hash.h"
 
@@ -116,15 +117,6 @@ void compareMaterials(const Scene& a, const Scene& b, const Material& m, const M
     }
   }
   if (!d.any()) d.add("differs");
-}
-
-std::vector<const Material*> usedMaterials(const Scene& scene) {
-  std::vector<std::uint8_t> used(scene.materials.size(), 0);
-  for (const Triangle& t : scene.triangles) used[t.material] = 1;
-  std::vector<const Material*> list;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i] != 0) list.push_back(&scene.materials[i]);
-  return list;
 }
 
 std::vector<const Light*> lightsOf(const Scene& scene) {
