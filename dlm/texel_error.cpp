@@ -1,6 +1,7 @@
 #include "dlm/texel_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "base/error.h"
@@ -52,11 +53,17 @@ NeighbourSquares::NeighbourSquares(int width, int height, std::span<const double
   const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
   LUCARNE_CHECK_EQ(area.size(), w * h);
   table_.resize((w + 1) * (h + 1));
+  // Sums of whole numbers are exact, so that a window without surface has none: with those of fractions, what rounding
+  // left in its place would be divided by.
+  const double largest = area.empty() ? 0 : *std::max_element(area.begin(), area.end());
+  areaUnit_ = largest > 0 ? largest * 0x1p-30 : 1;
   for (std::size_t y = 0; y < h; ++y) {
     Sums row;
     for (std::size_t x = 0; x < w; ++x) {
       const std::size_t t = y * w + x;
-      row = {row.photons + photons[t], row.squares + squares[t], row.area + area[t]};
+      const double open = std::round(area[t] / areaUnit_);
+      // What fell where no surface is open says nothing about the surface around it.
+      if (open > 0) row = {row.photons + photons[t], row.squares + squares[t], row.area + open};
       const Sums& above = table_[y * (w + 1) + x + 1];
       table_[(y + 1) * (w + 1) + x + 1] = {above.photons + row.photons, above.squares + row.squares,
                                            above.area + row.area};
@@ -80,7 +87,7 @@ double NeighbourSquares::density(int x, int y, int smallestRadius) const {
     const Sums sums = window(x, y, radius);
     const bool whole = radius >= std::max(width_, height_);
     if (sums.photons < kEnoughPhotons && !whole) continue;
-    return sums.area > 0 && sums.squares > 0 ? sums.squares / sums.area : 0;
+    return sums.area > 0 && sums.squares > 0 ? sums.squares / (sums.area * areaUnit_) : 0;
   }
 }
 

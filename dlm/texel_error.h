@@ -72,11 +72,12 @@ class NeighbourSquares {
 
  private:
   struct Sums {
-    double photons = 0, squares = 0, area = 0;
+    double photons = 0, squares = 0, area = 0;  // area in areaUnit_
   };
   Sums window(int x, int y, int radius) const;
 
   int width_, height_;
+  double areaUnit_ = 1;
   std::vector<Sums> table_;  // over all texels above and left of a corner
 };
 

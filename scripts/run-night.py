@@ -4,7 +4,7 @@
   scripts/run-night.py [SCENE] [--night 2h] [--lucarne PROGRAM] [--work FOLDER] [--out docs/data] [-- OPTIONS OF THE BAKE]
 
 NIGHT=2h in the environment is the same as --night 2h; the undisturbed bake of the same photons comes after it and takes as long
-again. The interruptions, at equal distances:
+again, or runs beside the last stretch of the night, whose photons are then settled when it begins (--beside). The interruptions, at equal distances:
 
   kill         kill -9 while photons are traced
   kill-saving  kill -9 while a state is being written
@@ -22,6 +22,7 @@ comparison) and the report of the bake, night-report.json and night-report.html.
 """
 import argparse
 import json
+import math
 import os
 import platform
 import re
@@ -119,27 +120,30 @@ class Night:
         self.states = os.path.join(place.folder, "night.checkpoint")
         self.messages = tempfile.NamedTemporaryFile(prefix="lucarne-night-", suffix=".log").name  # not on a disk that fills
         self.process, self.events, self.failed = None, [], False
+        self.other, self.reference = None, None  # the undisturbed bake
         self.runs = 0
 
     # The bake, as a process.
 
-    def command(self, photons, extra):
+    def command(self, output, photons, extra):
         scene = [self.a.scene] if self.a.scene else []
-        return [self.a.lucarne, "bake", *scene, "-o", self.output, "--photons", str(photons), *extra, *self.a.bake]
+        return [self.a.lucarne, "bake", *scene, "-o", output, "--photons", str(photons), *extra, *self.a.bake]
 
-    def start(self, photons, extra=(), file_limit=None, disturbed=True):
+    def start(self, photons, extra=(), file_limit=None):
         def limit():
             if file_limit is not None:
                 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # writes fail instead
                 resource.setrlimit(resource.RLIMIT_FSIZE, (file_limit, file_limit))
 
         self.runs += 1
-        if disturbed:
-            extra = ("--checkpoint", f"{self.a.checkpoint}s", "--resume", *extra)
+        extra = ("--checkpoint", f"{self.a.checkpoint:g}s", "--resume", *extra)
         with open(self.messages, "wb") as f:
-            self.process = subprocess.Popen(self.command(photons, extra), stdout=f, stderr=f, preexec_fn=limit)
-        shown = ["lucarne", *(os.path.basename(x) if os.path.isabs(x) else x for x in self.process.args[1:])]
-        self.log(f"run {self.runs}: {' '.join(shown)}")
+            self.process = subprocess.Popen(self.command(self.output, photons, extra), stdout=f, stderr=f, preexec_fn=limit)
+        self.log_command(f"run {self.runs}", self.process)
+
+    def log_command(self, what, process):
+        shown = ["lucarne", *(os.path.basename(x) if os.path.isabs(x) else x for x in process.args[1:])]
+        self.log(f"{what}: {' '.join(shown)}")
 
     def running(self):
         return self.process.poll() is None
@@ -285,7 +289,7 @@ class Night:
     # The night.
 
     def run(self, night, rate):
-        photons = int(max(1e6, 100 * rate * night))  # more than there is time for
+        photons = 10 ** math.ceil(math.log10(max(1e6, 20 * rate * night)))  # more than there is time for
         begun = time.monotonic()
         for i, (kind, interrupt) in enumerate(self.WAYS):
             before = self.saved_photons()
@@ -304,10 +308,12 @@ class Night:
         if not self.events:
             return None
         before = self.saved_photons()
-        if self.a.has_time:
+        if self.a.has_time and not self.a.beside:
             return self.finish(photons, ("--time", f"{self.a.share:g}s"), before)
         # As many more as the photons of the night so far lead to expect.
         photons = before + max(100_000, int(before / (time.monotonic() - begun) * self.a.share))
+        if self.a.beside:
+            self.start_undisturbed(photons)
         return self.finish(photons, (), before)
 
     def finish(self, photons, extra, before):
@@ -321,11 +327,16 @@ class Night:
         with open(report, encoding="utf-8") as f:
             return json.load(f)
 
+    def start_undisturbed(self, photons):
+        self.reference = os.path.join(self.place.folder, "undisturbed.dlm")
+        self.other = subprocess.Popen(self.command(self.reference, photons, ("--checkpoint", "0", "--quiet")))
+        self.log_command("undisturbed", self.other)
+
     def undisturbed(self, photons):
-        self.output = os.path.join(self.place.folder, "undisturbed.dlm")
-        self.start(photons, ("--checkpoint", "0"), disturbed=False)
-        self.process.wait()
-        o = subprocess.run([self.a.lucarne, "info", self.output, "--json"], capture_output=True)
+        if self.other is None:
+            self.start_undisturbed(photons)
+        self.other.wait()
+        o = subprocess.run([self.a.lucarne, "info", self.reference, "--json"], capture_output=True)
         if o.returncode != 0:
             self.fail("the undisturbed bake has no light maps")
             return None
@@ -338,6 +349,7 @@ def arguments():
     p.add_argument("scene", nargs="?", help="a .glb or .gltf file; none: the built-in room")
     p.add_argument("--night", default=os.environ.get("NIGHT", "2h"), help="how long to bake (2h)")
     p.add_argument("--checkpoint", type=float, help="seconds between states (a sixtieth of the night, 0.2 to 300)")
+    p.add_argument("--beside", action="store_true", help="the undisturbed bake runs beside the last stretch")
     p.add_argument("--lucarne", default=os.path.join(ROOT, "build/release/cli/lucarne"))
     p.add_argument("--work", help="folder for the bake (a new one)")
     p.add_argument("--room", default="4G", help="size of the tmpfs for the bake (4G)")
@@ -397,8 +409,10 @@ def main():
             f.write("\n")
         return 0 if same and not night.failed else 1
     finally:
-        if night.process is not None and night.running():
-            night.end(signal.SIGKILL)
+        for process in (night.process, night.other):
+            if process is not None and process.poll() is None:
+                process.kill()
+                process.wait()
         place.close()
 
 

@@ -24,6 +24,25 @@ TEST(TexelError, TheNeighbourhoodGrowsUntilItHasPhotonsFromAnySmallestRadius) {
   EXPECT_EQ(NeighbourSquares(width, height, std::vector<double>(63, 0.0), std::vector<double>(63, 0.0), area).density(1, 1, 0), 0);
 }
 
+TEST(TexelError, PhotonsWhereNoSurfaceIsOpenSayNothingOfTheSurfaceAroundThem) {
+  constexpr int width = 40, height = 40;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.05, 0.95);
+  std::vector<double> photons(width * height), squares(width * height), area(width * height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto t = static_cast<std::size_t>(y * width + x);
+      const bool hidden = x >= 10 && x < 30 && y >= 10 && y < 30;
+      area[t] = hidden ? 0 : uniform(random);
+      photons[t] = 5;
+      squares[t] = hidden ? 1000 : 3 * area[t];
+    }
+  }
+  const NeighbourSquares n(width, height, photons, squares, area);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) EXPECT_NEAR(n.density(x, y, 1), 3, 1e-6) << x << ", " << y;
+}
+
 TEST(TexelError, TheRatioIsThatOfTheDifferencesAndOneWhereNothingIsKnown) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0, 1);
