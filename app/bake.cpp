@@ -137,7 +137,8 @@ nlohmann::json bakeWith(MpiJob* mpi, BakeOptions options, const JobControl& cont
     return root ? writeReport(context, state->header, nullptr, *finished) : nullptr;
   if (finished) return writeReport(context, state->header, nullptr, *finished);
   control.mayEndAtOnce("");
-  const BakeSetup setup{mpi, options, packed, *scene, *plan, control, player, start};
+  BakeContacts contacts(packed.scene, *plan, options, scene->rayCaster());
+  const BakeSetup setup{mpi, options, packed, *scene, *plan, control, player, contacts, start};
   const JobResult result = traceBake(setup, *state, folder);
   if (!root) return nullptr;
   if (result.end == JobEnd::interrupted) throwInterrupted(setup, *state, result, folder);

@@ -64,7 +64,7 @@ nlohmann::json writeMaps(const BakeSetup& setup, const BakeState& state, const s
   checkMapsOutput(path);
   PartHeader header = state.header;
   header.content = state.tallies.contentHash();
-  const Baked baked = resolveBake(packed.scene, plan, options, header, state.tallies, &setup.scene.rayCaster());
+  const Baked baked = resolveBake(packed.scene, plan, options, header, state.tallies, setup.contacts.get());
   nlohmann::json report = makeReport({options, packed.scene, plan, header, &baked});
   // Of all its photons a bake is what a merge of them is, to the last bit.
   if (end != JobEnd::photons) report["ended_by"] = nameOf(end);
@@ -90,7 +90,7 @@ Written writeOutputs(const BakeSetup& setup, const BakeState& state, CheckpointF
     report = writeMaps(setup, state, options.output, result.end);
   } else if (options.report) {
     Baked baked =
-        resolveBake(setup.packed.scene, setup.plan, options, state.header, state.tallies, &setup.scene.rayCaster());
+        resolveBake(setup.packed.scene, setup.plan, options, state.header, state.tallies, setup.contacts.get());
     report = makeReport({options, setup.packed.scene, setup.plan, state.header, &baked});
     written.maps = std::move(baked.maps);
   } else {

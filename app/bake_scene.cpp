@@ -27,21 +27,20 @@ BakePlan makePlan(const Scene& scene, const BakeOptions& options, std::uint64_t 
 }
 
 Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, const PartHeader& header,
-                  const Tallies& tallies, const RayCaster* caster) {
+                  const Tallies& tallies, SharedContacts contacts) {
   Baked baked;
   baked.ledger = header.ledger;
   if (header.direct) baked.direct = *header.direct;
   baked.emittedFlux = header.identity.emittedFlux;
   baked.contentHash = tallies.contentHash();
-  std::optional<RayCaster> own;
-  if (caster == nullptr) caster = &own.emplace(scene, RayCasterOptions{options.isa, true});
-  baked.contacts =
-      findContacts(scene, plan.charts, plan.layout, plan.tallies, *caster, makeKernel(options.kernel).radius);
+  if (contacts == nullptr)
+    contacts = findContacts(scene, plan, options, RayCaster(scene, RayCasterOptions{options.isa, true}));
+  baked.contacts = std::move(contacts);
   baked.maps = resolve({scene, plan.charts, plan.layout, plan.tallies, tallies, options.directions, baked.emittedFlux,
                         header.ledger.photons, baked.direct.samples.count(), baked.direct.samples.countOdd(),
-                        baked.contacts},
+                        *baked.contacts},
                        options.kernel, &baked.kernelBias);
-  const SeamSet seams = findSeams(scene, plan.charts, plan.layout, baked.maps, baked.contacts);
+  const SeamSet seams = findSeams(scene, plan.charts, plan.layout, baked.maps, *baked.contacts);
   baked.seams = fitSeams(seams, plan.layout, baked.maps, options.seams == SeamMode::fit);
   baked.dropped = dropFaintMaps(baked.maps, options.dropError);
   baked.uv = placeInAtlas(plan.charts, plan.layout, baked.maps);

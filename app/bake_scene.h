@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "app/bake_contacts.h"
 #include "app/bake_plan.h"
 #include "distributed/part_header.h"
 #include "distributed/photon_run.h"
@@ -11,7 +12,6 @@
 #include "dlm/light_maps.h"
 #include "dlm/resolve.h"
 #include "dlm/seam_fit.h"
-#include "dlm/texel_contacts.h"
 
 namespace lucarne {
 
@@ -20,7 +20,7 @@ struct Baked {
   DirectPart direct;                   // nothing where direct light is not gathered
   double seconds = 0;                  // of tracing
   double emittedFlux = 0;              // lm, mean over channels: the scale of the ledger and the tallies
-  std::vector<SideContacts> contacts;  // that the maps were made with, by side
+  SharedContacts contacts;  // that the maps were made with, by side
   LightMaps maps;
   SeamReport seams;
   KernelBias kernelBias;  // of adaptive kernels
@@ -35,9 +35,10 @@ Baked bakeScene(const PhotonScene& scene, const BakePlan& plan, const BakeOption
                 const std::function<bool(const RunProgress&)>& progress);
 
 /// Maps of the tallies that `header` is of (no photons, no samples: black): what resolving, the layout and the kernel
-/// of `options` decide. Fills in all but the seconds. `caster`: of the scene, where there is one already.
+/// of `options` decide. Fills in all but the seconds. `contacts`: where they are known already, with
+/// this kernel.
 Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& options, const PartHeader& header,
-                  const Tallies& tallies, const RayCaster* caster = nullptr);
+                  const Tallies& tallies, SharedContacts contacts = nullptr);
 
 /// Where the options leave it to the scene: how many directions.
 void settleDirections(const Scene& scene, BakeOptions& options);

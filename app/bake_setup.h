@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "app/bake_contacts.h"
 #include "app/bake_plan.h"
 #include "app/report_pictures.h"
 #include "distributed/job_control.h"
@@ -21,6 +22,7 @@ struct BakeSetup {
   const BakePlan& plan;
   const JobControl& control;
   const PlayerPictures& player;  // of the report's page
+  BakeContacts& contacts;
   std::chrono::steady_clock::time_point start;  // of this run
 
   bool root() const { return mpi == nullptr || mpi->rank() == 0; }

@@ -29,6 +29,7 @@ ProgressGoal goalOf(const BakeOptions& options, const StopRules& rules) {
   ProgressGoal goal;
   if (options.photons != kUnlimitedPhotons) goal.photons = photonsOf(options).size();
   goal.targetError = options.targetError;
+  goal.nextJudged = [rules](std::uint64_t photons) { return rules.nextJudged(photons); };
   if (!options.timeLimit) return goal;
   const std::chrono::duration<double> left = rules.deadline - std::chrono::steady_clock::now();
   goal.seconds = std::max(0.0, left.count());
@@ -57,35 +58,18 @@ void writePreview(const BakeSetup& setup, const BakeState& state) {
   }
 }
 
-/// Finds the contacts of the scene's charts when they are first asked for.
-class ErrorEstimator {
- public:
-  explicit ErrorEstimator(const BakeSetup& setup) : setup_(setup) {}
-
-  double operator()(const BakeState& state) {
-    double error = 0;
-    tbb::task_arena(threadCount(setup_.options)).execute([&] { error = estimate(state); });
-    return error;
-  }
-
- private:
-  double estimate(const BakeState& state) {
-    const BakePlan& plan = setup_.plan;
-    const KernelOptions& kernel = setup_.options.kernel;
-    if (contacts_.empty())
-      contacts_ = findContacts(setup_.packed.scene, plan.charts, plan.layout, plan.tallies, setup_.scene.rayCaster(),
-                               makeKernel(kernel).radius);
-    const PartHeader& header = state.header;
-    const IndexSet samples = header.direct ? header.direct->samples : IndexSet();
+double estimateError(const BakeSetup& setup, const BakeState& state) {
+  const BakePlan& plan = setup.plan;
+  const PartHeader& header = state.header;
+  const IndexSet samples = header.direct ? header.direct->samples : IndexSet();
+  const SharedContacts contacts = setup.contacts.get();
+  return tbb::task_arena(threadCount(setup.options)).execute([&] {
     return estimateRelativeError(
-        {setup_.packed.scene, plan.charts, plan.layout, plan.tallies, state.tallies, setup_.options.directions,
-         header.identity.emittedFlux, header.ledger.photons, samples.count(), samples.countOdd(), contacts_},
-        kernel);
-  }
-
-  const BakeSetup& setup_;
-  std::vector<SideContacts> contacts_;
-};
+        {setup.packed.scene, plan.charts, plan.layout, plan.tallies, state.tallies, setup.options.directions,
+         header.identity.emittedFlux, header.ledger.photons, samples.count(), samples.countOdd(), *contacts},
+        setup.options.kernel);
+  });
+}
 
 /// Of a scene without light.
 JobResult darkBake(const BakeSetup& setup, BakeState& state, CheckpointFolder& folder) {
@@ -127,7 +111,6 @@ JobResult traceBake(const BakeSetup& setup, BakeState& state, CheckpointFolder& 
   ProgressLine progress("baking", goalOf(options, rules), silent, standardProgressOutput(json));
   progress.startFrom(state.header.photons.count(), state.header.ledger.rays);
   RateRecorder rates(state.header);
-  ErrorEstimator estimator(setup);
   BakeJob job{
       .task = {scene, map, plan.tallies, plan.directions},
       .run = runOptions(options),
@@ -144,9 +127,13 @@ JobResult traceBake(const BakeSetup& setup, BakeState& state, CheckpointFolder& 
       .control = setup.control,
       .preview = [&setup](BakeState& s) { writePreview(setup, s); },
       .estimateError = {},
-      .estimated = [&progress](double error, std::uint64_t photons) { progress.estimated(error, photons); },
+      .estimated =
+          [&progress](const EstimatedError& e) {
+            progress.paused(e.seconds);
+            progress.estimated(e.error, e.photons);
+          },
   };
-  if (options.targetError > 0 || !silent) job.estimateError = std::ref(estimator);
+  if (options.targetError > 0 || !silent) job.estimateError = [&setup](const BakeState& s) { return estimateError(setup, s); };
   const JobResult result = mpi != nullptr ? mpi->run(job, state, &folder) : runJob(job, state, &folder);
   progress.finish();
   return result;

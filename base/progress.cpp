@@ -52,7 +52,7 @@ ProgressLine::ProgressLine(std::string verb, ProgressGoal goal, bool quiet, Prog
     : verb_(std::move(verb)),
       quiet_(quiet),
       output_(std::move(output)),
-      model_(goal, output_.seconds()),
+      model_(std::move(goal), output_.seconds()),
       lastShown_(output_.seconds()) {}
 
 ProgressLine::~ProgressLine() { endLine(); }

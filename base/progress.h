@@ -41,6 +41,8 @@ class ProgressLine {
   void updateGathering(std::uint64_t samples, std::uint64_t total);
   /// The error was estimated when so many photons were traced.
   void estimated(double error, std::uint64_t photons) { model_.estimated(error, photons); }
+  /// The seconds up to now went into something that is not tracing and will not come again for long.
+  void paused(double seconds) { model_.paused(output_.seconds() - seconds, output_.seconds()); }
   /// The last line, with the rates of the whole run. More calls do nothing.
   void finish();
 

@@ -24,13 +24,17 @@ void ProgressModel::startFrom(std::uint64_t photons, std::uint64_t rays) {
 }
 
 void ProgressModel::update(double now, std::uint64_t photons, std::uint64_t rays) {
-  const double elapsed = now - last_;
+  const double elapsed = std::max(0.0, now - last_);
   const double keep = std::exp(-elapsed / std::max(kMemory, kMemoryShare * (now - start_)));
   photonRate_.add(since(photons_, photons), elapsed, keep);
   rayRate_.add(since(rays_, rays), elapsed, keep);
   photons_ = photons;
   rays_ = rays;
   last_ = now;
+}
+
+void ProgressModel::paused(double from, double to) {
+  last_ += std::max(0.0, to - std::max(from, last_));
 }
 
 void ProgressModel::estimated(double error, std::uint64_t photons) {
@@ -47,12 +51,19 @@ std::optional<double> ProgressModel::errorAt(double photons) const {
   return error_ * std::sqrt(errorPhotons_ / photons);
 }
 
+double ProgressModel::photonsForTargetError() const {
+  constexpr double kMost = 0x1p62;
+  const double ratio = error_ / goal_.targetError;
+  const double least = std::max({1.0, static_cast<double>(photons_), errorPhotons_ * ratio * ratio});
+  if (!goal_.nextJudged || !(least < kMost)) return least;
+  return static_cast<double>(goal_.nextJudged(static_cast<std::uint64_t>(std::ceil(least)) - 1));
+}
+
 std::optional<double> ProgressModel::photonsAtEnd() const {
   std::optional<double> end;
   if (goal_.photons > 0) end = static_cast<double>(goal_.photons);
   if (goal_.targetError > 0 && errorPhotons_ > 0) {
-    const double ratio = error_ / goal_.targetError;
-    end = std::min(end.value_or(HUGE_VAL), std::max(static_cast<double>(photons_), errorPhotons_ * ratio * ratio));
+    end = std::min(end.value_or(HUGE_VAL), photonsForTargetError());
   }
   return end;
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 
 namespace lucarne {
 
@@ -11,16 +13,20 @@ struct ProgressGoal {
   std::uint64_t photons = 0;      // 0: no limit
   std::optional<double> seconds;  // from its start
   double targetError = 0;         // estimated relative error; 0: none
+  // The first count of photons after its argument at which the error is judged; empty: it is at any.
+  std::function<std::uint64_t(std::uint64_t)> nextJudged = {};
 };
 
 /// Time is seconds of any clock that never goes back.
 class ProgressModel {
  public:
-  ProgressModel(ProgressGoal goal, double now) : goal_(goal), start_(now), last_(now) {}
+  ProgressModel(ProgressGoal goal, double now) : goal_(std::move(goal)), start_(now), last_(now) {}
 
   /// What earlier runs did: counts as done, not in the rates.
   void startFrom(std::uint64_t photons, std::uint64_t rays);
   void update(double now, std::uint64_t photons, std::uint64_t rays);
+  /// From `from` to `to` nothing was traced, and will not be again for long: such time is none of the rates.
+  void paused(double from, double to);
   /// `error` was estimated when so many photons were traced.
   void estimated(double error, std::uint64_t photons);
 
@@ -54,6 +60,7 @@ class ProgressModel {
   std::optional<double> errorAt(double photons) const;
   /// Photons at the end that the goals of photons and error set.
   std::optional<double> photonsAtEnd() const;
+  double photonsForTargetError() const;
 
   ProgressGoal goal_;
   double start_, last_;

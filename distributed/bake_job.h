@@ -25,6 +25,12 @@ struct JobProgress : RunProgress {
   double untilCheckpoint = -1;  // seconds; negative: none is to come
 };
 
+struct EstimatedError {
+  double error;           // estimated relative error
+  std::uint64_t photons;  // of so many
+  double seconds;         // that it took to say so; nothing was traced meanwhile
+};
+
 struct BakeJob {
   PhotonTask task;
   PhotonRunOptions run;
@@ -37,7 +43,7 @@ struct BakeJob {
   JobControl control = {};
   std::function<void(BakeState&)> preview = {};                // called where one was asked for, with whole tallies
   std::function<double(const BakeState&)> estimateError = {};  // estimated relative error of what there is
-  std::function<void(double error, std::uint64_t photons)> estimated = {};  // told of every estimate
+  std::function<void(const EstimatedError&)> estimated = {};  // told of every estimate
 };
 
 struct JobResult {

@@ -30,9 +30,10 @@ bool ErrorJudge::judge(const BakeState& state) {
   const auto start = Clock::now();
   judged_ = state.header.photons.count();
   const double error = job_.estimateError(state);
-  if (job_.estimated) job_.estimated(error, judged_);
   last_ = Clock::now();
-  pause_ = std::max(kFirstPause, kCostFactor * std::chrono::duration<double>(last_ - start).count());
+  const double seconds = std::chrono::duration<double>(last_ - start).count();
+  if (job_.estimated) job_.estimated({error, judged_, seconds});
+  pause_ = std::max(kFirstPause, kCostFactor * seconds);
   return job_.rules.targetError > 0 && error <= job_.rules.targetError;
 }
 

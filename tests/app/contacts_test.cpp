@@ -171,7 +171,7 @@ TEST(Contacts, DoNotChangeLightThatIsTheSameOnBothSides) {
   double worst = 0;
   std::uint64_t texels = 0, cut = 0;
   forEachTexel(b, [&](const SideMaps& side, std::uint64_t t, double) {
-    const SideContacts& contacts = b.baked.contacts[static_cast<std::size_t>(&side - b.baked.maps.sides.data())];
+    const SideContacts& contacts = (*b.baked.contacts)[static_cast<std::size_t>(&side - b.baked.maps.sides.data())];
     if (!contacts.empty() && contacts.share(t - side.firstTexel) == 0) ++cut;
     const double e = static_cast<double>(luminance(b.baked.maps.irradiance[t]));
     const double se = static_cast<double>(b.baked.maps.relativeError[t]) * std::sqrt(e * expected);

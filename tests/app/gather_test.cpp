@@ -30,7 +30,7 @@ std::vector<Comparison> compare(const test::BakedScene& baked, const BakeOptions
                                 const PhotonScene& gathered) {
   std::vector<Comparison> all;
   const GatherScene in{gathered, baked.plan.charts, baked.plan.layout, baked.plan.tallies, baked.plan.directions,
-                       baked.baked.contacts};
+                       *baked.baked.contacts};
   const LightMaps& maps = baked.baked.maps;
   std::uint32_t lit = 0;
   for (std::uint32_t s = 0; s < maps.sides.size(); ++s) {

@@ -115,7 +115,7 @@ TEST(SeamFit, ReachesLightByDirection) {
     const BakedScene b(joinedFloor(true).build(), optionsWith(mode));
     const LightMaps& maps = b.baked.maps;
     double difference = 0, mean = 0;
-    const SeamSet set = findSeams(b.scene, b.plan.charts, b.plan.layout, maps, b.baked.contacts);
+    const SeamSet set = findSeams(b.scene, b.plan.charts, b.plan.layout, maps, *b.baked.contacts);
     for (const SeamSample& s : set.samples) {
       const SideMaps &a = maps.sides[s.sideA], &c = maps.sides[s.sideB];
       for (std::size_t k = 0; k < std::min(a.directions.size(), c.directions.size()); ++k) {

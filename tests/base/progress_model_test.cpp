@@ -76,6 +76,19 @@ TEST(ProgressModel, TimeLeftIsRightWithinAFifth) {
   EXPECT_LT(worst(run({waves, 60, 1.2}, 1'000'000'000)), 0.2);
 }
 
+TEST(ProgressModel, AnInterludeIsNoneOfTheRate) {
+  ProgressModel model({10'000'000, {}, 0}, 0);
+  model.update(1, 1'000'000, 0);
+  model.paused(1.5, 9.5);
+  model.update(10, 2'000'000, 0);  // 1 s of tracing since the last
+  EXPECT_NEAR(model.photonRate(), 1e6, 1);
+  EXPECT_NEAR(model.secondsLeft(10).value(), 8, 1e-6);
+  EXPECT_NEAR(model.seconds(10), 10, 1e-12) << "but of the time that was spent";
+  model.paused(9, 9.5);  // known already
+  model.update(11, 3'000'000, 0);
+  EXPECT_NEAR(model.photonRate(), 1e6, 1);
+}
+
 TEST(ProgressModel, AMachineThatSlowsDownIsFollowed) {
   const auto moments = run({[](double t) { return t < 200 ? 1e6 : 5e5; }}, 400'000'000);
   double worstLater = 0;
@@ -93,6 +106,14 @@ TEST(ProgressModel, WhateverComesFirstIsWhatIsLeft) {
   EXPECT_NEAR(model.secondsLeft(10).value(), 4.4, 1e-6);
   EXPECT_NEAR(model.errorAtEnd(10).value(), 0.01, 1e-9);
   EXPECT_NEAR(model.errorNow().value(), 0.012, 1e-12);
+}
+
+TEST(ProgressModel, ATargetIsMetWhereItIsJudged) {
+  ProgressModel model({0, {}, 0.01, [](std::uint64_t photons) { return (photons / 100'000 + 1) * 100'000; }}, 0);
+  model.update(10, 100'000, 0);
+  model.estimated(0.012, 100'000);  // 144,000 photons give 1 %, which is seen at 200,000
+  EXPECT_NEAR(model.secondsLeft(10).value(), 10, 1e-6);
+  EXPECT_NEAR(model.errorAtEnd(10).value(), 0.012 / std::sqrt(2.0), 1e-9);
 }
 
 TEST(ProgressModel, ErrorsFallWithTheRootOfPhotons) {
