@@ -1,11 +1,11 @@
 #include "app/check_time.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "app/bake_scene.h"
 #include "base/float_mode.h"
 #include "base/memory.h"
+#include "base/stopwatch.h"
 #include "base/system.h"
 #include "base/units.h"
 #include "tracer/transport/any_sink.h"
@@ -14,10 +14,6 @@ namespace lucarne {
 namespace {
 
 constexpr double kBareSeconds = 0.1, kStoredSeconds = 0.3;
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Stores nothing; counts the photons that no lit side saw.
 class WasteSink {
@@ -50,11 +46,11 @@ BareSample traceBare(const CheckInput& in) {
   constexpr std::uint64_t kStep = 512;
   Ledger ledger;
   WasteSink sink(ledger);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   double seconds = 0;
   while (seconds < kBareSeconds) {
     flyPhotons(in.photonScene, {ledger.photons, ledger.photons + kStep}, in.options.seed, {}, sink, ledger);
-    seconds = secondsSince(start);
+    seconds = watch.seconds();
   }
   const auto n = static_cast<double>(ledger.photons), emitted = sumOf(ledger.emitted);
   return {n / seconds,
@@ -76,11 +72,11 @@ double traceStored(const CheckInput& in, const DirectionSet& directions, const T
   constexpr int kMostChunks = 64;
   const std::uint64_t step = 4096 * static_cast<std::uint64_t>(std::min(options.threads, kMostChunks));
   std::uint64_t done = run.trace({0, step}, goOn), timed = 0;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   double seconds = 0;
   while (seconds < kStoredSeconds) {
     timed += run.trace({done + timed, done + timed + step}, goOn);
-    seconds = secondsSince(start);
+    seconds = watch.seconds();
   }
   return static_cast<double>(timed) / seconds;
 }

@@ -1,7 +1,6 @@
 #include "app/report_pictures.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "app/bake_scene.h"
 #include "app/check_input.h"
@@ -9,6 +8,7 @@
 #include "app/sheet_maps.h"
 #include "base/error.h"
 #include "base/png_encode.h"
+#include "base/stopwatch.h"
 #include "base/units.h"
 #include "tracer/transport/picture.h"
 
@@ -18,15 +18,6 @@ namespace {
 constexpr std::size_t kMostCameras = 8;
 constexpr int kDrawnWidth = 640, kDrawnHeight = 360, kTracedWidth = 384, kTracedHeight = 216;
 constexpr std::uint32_t kMostPaths = 64;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 PagePicture shown(const ImageRgb& image, std::string title, std::string how) {
   std::vector<double> luminances;

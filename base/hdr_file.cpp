@@ -8,14 +8,12 @@
 #include "base/files.h"
 #include "base/image_file.h"
 #include "base/image_size.h"
+#include "base/math.h"
 
 namespace lucarne {
 namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
-
-/// 2^exponent for the exponents of normal doubles.
-double powerOfTwo(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
 
 class HdrReader {
  public:

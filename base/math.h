@@ -12,6 +12,13 @@
 
 namespace lucarne {
 
+inline constexpr double kPiD = 3.14159265358979323846;
+
+/// 2^exponent, for exponents of normal numbers.
+inline double powerOfTwo(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+}
+
 /// sin(πx) and cos(πx), exact reduction for any finite x; error < 3e-16, multiples of 1/2 exact.
 double sinPi(double x);
 double cosPi(double x);

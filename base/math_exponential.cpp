@@ -18,9 +18,6 @@ double nearest(double x) {
   return (x + kShift) - kShift;
 }
 
-/// 2^k for the exponents of normal numbers.
-double powerOfTwo(int k) { return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52); }
-
 /// value · 2^k with one rounding, also where the result is subnormal or infinite. 0.5 < value < 2, |k| < 1100.
 double scale(double value, int k) {
   if (k > 1000) return value * powerOfTwo(1000) * powerOfTwo(k - 1000);

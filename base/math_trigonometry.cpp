@@ -8,7 +8,6 @@
 namespace lucarne {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 
 /// sin(x), |x| ≤ π/4.
 double sinKernel(double x) {
@@ -37,7 +36,7 @@ double sinOfHalfTurns(double x, int quarters) {
   if (!(x < std::numeric_limits<double>::infinity())) return std::numeric_limits<double>::quiet_NaN();
   const double turn = x - 2 * std::floor(0.5 * x);
   const int nearest = static_cast<int>(2 * turn + 0.5);
-  const double r = kPi * (turn - 0.5 * nearest);
+  const double r = kPiD * (turn - 0.5 * nearest);
   const int quarter = (nearest + quarters) & 3;
   const double value = (quarter & 1) != 0 ? cosKernel(r) : sinKernel(r);
   return (quarter & 2) != 0 ? 0 - value : value;
@@ -82,8 +81,8 @@ double atan2(double y, double x) {
   const double larger = ax > ay ? ax : ay;
   double angle = larger > 0 ? atanUnit((ax > ay ? ay : ax) / larger) : 0;
   constexpr double kHalfPiLow = 6.12323399573676603587e-17;
-  if (ay > ax) angle = (0.5 * kPi - angle) + kHalfPiLow;
-  if (std::signbit(x)) angle = (kPi - angle) + 2 * kHalfPiLow;
+  if (ay > ax) angle = (0.5 * kPiD - angle) + kHalfPiLow;
+  if (std::signbit(x)) angle = (kPiD - angle) + 2 * kHalfPiLow;
   return std::copysign(angle, y);
 }
 

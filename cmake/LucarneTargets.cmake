@@ -39,6 +39,14 @@ add_library(lucarne_common_headers OBJECT "${PROJECT_BINARY_DIR}/common_headers.
 target_link_libraries(lucarne_common_headers PRIVATE lucarne_flags)
 target_precompile_headers(lucarne_common_headers PRIVATE ${LUCARNE_COMMON_HEADERS})
 
+# Reading headers is most of the time that a file takes: several are compiled as one.
+function(lucarne_compile_together target)
+  if(LUCARNE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # of classes in what is then no main file
+  endif()
+endfunction()
+
 # lucarne_library(NAME): a static library of every .cpp below the current folder, target lucarne::NAME, headers
 # included as "NAME/file.h" and installed under include/lucarne/NAME. EXCLUDE REGEX leaves sources out; PRECOMPILED
 # takes the common headers.
@@ -50,6 +58,7 @@ function(lucarne_library name)
   endif()
   add_library(lucarne_${name} STATIC ${sources})
   add_library(lucarne::${name} ALIAS lucarne_${name})
+  lucarne_compile_together(lucarne_${name})
   set_target_properties(lucarne_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(lucarne_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lucarne>)

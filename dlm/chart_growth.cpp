@@ -1,5 +1,7 @@
 #include "dlm/chart_growth.h"
 
+#include "base/math.h"
+
 namespace lucarne {
 namespace {
 
@@ -16,7 +18,7 @@ bool shadingContinues(const Scene& scene, std::uint32_t t, int k, EdgeLink link)
 }  // namespace
 
 double cosDegrees(double degrees) {
-  const double x = degrees * (3.14159265358979323846 / 180);
+  const double x = degrees * (kPiD / 180);
   double term = 1, sum = 1;
   for (int k = 2; k < 40; k += 2) {
     term *= -x * x / (k * (k - 1));

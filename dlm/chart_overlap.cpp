@@ -1,13 +1,12 @@
 #include "dlm/chart_overlap.h"
 
+#include "dlm/plane_polygon.h"
+
 namespace lucarne {
 namespace {
 
 constexpr std::uint32_t kEnd = 0xffffffffu;
 constexpr int kLevels = 30;  // the finest cells are 2^-28 of the extent: their indices fit in 32 bits
-
-/// Twice the signed area of (a, b, p); exactly 0 where p is a or b.
-double orient(Vec2d a, Vec2d b, Vec2d p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
 double smallestHeight(const PlaneTriangle& t) {
   double longest2 = 0;

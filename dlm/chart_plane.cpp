@@ -1,5 +1,7 @@
 #include "dlm/chart_plane.h"
 
+#include "dlm/plane_polygon.h"
+
 namespace lucarne {
 namespace {
 
@@ -64,8 +66,6 @@ class Calipers {
   const std::vector<Vec2d>& hull_;
   std::size_t right_ = 0, top_ = 0, left_ = 0;
 };
-
-double orient(Vec2d a, Vec2d b, Vec2d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 }  // namespace
 

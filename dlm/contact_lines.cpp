@@ -45,8 +45,6 @@ ContactLine extended(ContactLine line) {
   return {line.a - more, line.b + more};
 }
 
-bool stopsLight(const Material& m) { return !m.hasAlpha() && !m.transmits(); }
-
 }  // namespace
 
 double contactHeight(const ChartLayout& layout) { return kLineHeight * texelOf(layout); }
@@ -189,7 +187,7 @@ ContactFinder::ContactFinder(const Scene& scene, const ChartSet& charts, const T
                              const RayCaster& caster)
     : scene_(scene), charts_(charts), layout_(layout), caster_(caster), stops_(scene.triangles.size()) {
   for (std::uint32_t t = 0; t < stops_.size(); ++t)
-    stops_[t] = !isSkipped(scene, t) && stopsLight(scene.materials[scene.triangles[t].material]) ? 1 : 0;
+    stops_[t] = !isSkipped(scene, t) && scene.materials[scene.triangles[t].material].stopsLight() ? 1 : 0;
 }
 
 SideLines ContactFinder::find(std::uint32_t chart, bool back) const {

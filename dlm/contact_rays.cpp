@@ -19,8 +19,6 @@ constexpr std::array<Vec3d, 9> kDirections = {Vec3d{0, 0, 1},  {kB, kA, kUp},  {
                                               {-kA, kB, kUp},  {-kB, kA, kUp}, {-kB, -kA, kUp},
                                               {-kA, -kB, kUp}, {kA, -kB, kUp}, {kB, -kA, kUp}};
 
-bool stopsLight(const Material& m) { return !m.hasAlpha() && !m.transmits(); }
-
 /// Looks for a sole under a place of a chart.
 struct SoleSearch {
   const ContactScene& in;
@@ -31,7 +29,7 @@ struct SoleSearch {
 
   bool isSole(std::uint32_t t) const {
     const Scene& scene = in.scene;
-    if (in.charts.chartOfTriangle[t] == chart || !stopsLight(scene.materials[scene.triangles[t].material]))
+    if (in.charts.chartOfTriangle[t] == chart || !scene.materials[scene.triangles[t].material].stopsLight())
       return false;
     const Vec3d p0(scene.corner(t, 0)), e1 = Vec3d(scene.corner(t, 1)) - p0, e2 = Vec3d(scene.corner(t, 2)) - p0,
                                         scaled = cross(e1, e2), d = place - p0;
@@ -101,7 +99,7 @@ class Caster {
     const std::uint32_t met = in_.caster.nearest(origin, direction, kNone, repeats);
     if (met == kNone) return;
     const Material& m = in_.scene.materials[in_.scene.triangles[met].material];
-    if (!stopsLight(m) || !in_.caster.intersect(met, origin, direction).back) return;
+    if (!m.stopsLight() || !in_.caster.intersect(met, origin, direction).back) return;
     ++votes.backs;
     votes.blackBacks += m.doubleSided ? 0 : 1;
   }

@@ -11,6 +11,9 @@ namespace lucarne {
 
 inline double cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
 
+/// Twice the area of (a, b, c): positive if they turn left.
+inline double orient(Vec2d a, Vec2d b, Vec2d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
 /// Convex, either winding. Corners beyond the most are dropped: a triangle cut eleven times fits.
 struct PlanePolygon {
   std::array<Vec2d, 14> corner;

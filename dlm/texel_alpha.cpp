@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dlm/plane_polygon.h"
 #include "tracer/optics/surface.h"
 
 namespace lucarne {
 namespace {
 
 constexpr int kFinest = 16;
-
-double cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
 
 /// (b1, b2) of a point; meaningless for a triangle that is a line.
 Vec2d barycentricOf(const std::array<Vec2d, 3>& corner, Vec2d p) {

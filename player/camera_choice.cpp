@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <vector>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "tracer/transport/ray_caster.h"
 
 namespace lucarne {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kInsideFov = 1.0, kOutsideFov = 0.8;
+constexpr double kInsideFov = 1.0, kOutsideFov = 0.8;
 constexpr double kEyeHeightMetres = 1.6;
 constexpr double kEnclosed = 0.7;     // share of all directions: a room may lack a wall or its roof
 constexpr double kRoomy = 0.45;       // Score::filled of a view inside a room, more than inside a lampshade
@@ -147,7 +147,7 @@ Best bestInside(const Scout& scout, const std::vector<Vec3d>& places) {
   Best best;
   for (const Vec3d& eye : places) {
     for (int i = 0; i < 16; ++i) {
-      const double yaw = kPi * i / 8;
+      const double yaw = kPiD * i / 8;
       best.consider(scout, lookAt(eye, eye + Vec3d{std::cos(yaw), -0.2, std::sin(yaw)}, kInsideFov));
     }
   }
@@ -160,7 +160,7 @@ Best bestOutside(const Scout& scout) {
   Best best;
   for (const double elevation : {0.35, 0.1, 0.8, 1.3, -0.4, -1.3}) {
     for (int i = 0; i < 12; ++i) {
-      const double yaw = kPi * (i / 6.0 + 0.3), level = std::cos(elevation) * distance;
+      const double yaw = kPiD * (i / 6.0 + 0.3), level = std::cos(elevation) * distance;
       const Vec3d eye = center + Vec3d{std::cos(yaw) * level, std::sin(elevation) * distance, std::sin(yaw) * level};
       best.consider(scout, lookAt(eye, center, kOutsideFov), 0.3 * std::abs(elevation - 0.35));
     }

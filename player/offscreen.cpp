@@ -1,9 +1,9 @@
 #include "player/offscreen.h"
 
-#include <chrono>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/stopwatch.h"
 #include "player/frame_renderer.h"
 #include "player/gl_context.h"
 #include "player/map_fit.h"
@@ -11,10 +11,6 @@
 
 namespace lucarne {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 
@@ -55,7 +51,7 @@ ImageRgb supersampled(FrameRenderer& renderer, const FrameTarget& target, const 
 
 ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
                      RenderStats* stats, const ImageRgb* sky) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   const HeadlessGl gl;
   checkPictureSize(options);
   checkView(options, maps);
@@ -65,14 +61,14 @@ ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& ca
   FrameRenderer renderer(scene, fit.fewer ? *fit.fewer : maps, fit.format, 1.f, options.lobe);
   if (sky != nullptr && !sky->pixels.empty()) renderer.setSky(*sky);
   const FrameTarget target(options.width, options.height, true);
-  const double loaded = secondsSince(start);
+  const double loaded = watch.seconds();
   ImageRgb image = supersampled(renderer, target, camera, options);
   throwOnComplaint(gl.messages(), "drawing");
   if (stats != nullptr) {
     *stats = renderer.stats();
     stats->driver = driverName();
     stats->loadSeconds = loaded;
-    stats->frameSeconds = secondsSince(start) - loaded;
+    stats->frameSeconds = watch.seconds() - loaded;
   }
   return image;
 }

@@ -1,8 +1,8 @@
 #include "player/path_frames.h"
 
-#include <chrono>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "player/eye_adaptation.h"
 #include "player/gl_context.h"
 #include "player/gpu_timer.h"
@@ -12,10 +12,6 @@
 
 namespace lucarne {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// What stands for the window's own picture.
 struct Screen {
@@ -75,7 +71,7 @@ class PathFrames {
 
  private:
   void drawScene(std::size_t i) {
-    start_ = Clock::now();
+    watch_ = Stopwatch();
     timer_.begin();
     FrameView view{cameraOf(path_.at(static_cast<double>(i) / options_.fps), path_.yfov, frame_)};
     view.view = options_.render.view;
@@ -103,7 +99,7 @@ class PathFrames {
     }
     std::vector<std::uint8_t> pixels = screen_.read();
     if (drawn_++ > 0) {  // the first one waits for the shaders
-      seconds_.push_back(secondsSince(start_));
+      seconds_.push_back(watch_.seconds());
       if (timer_.seconds()) gpuSeconds_.push_back(*timer_.seconds());
     }
     return pixels;
@@ -135,7 +131,7 @@ class PathFrames {
   EyeAdaptation eye_;
   std::optional<Overlay> overlay_;
   LookSettings look_;
-  Clock::time_point start_;
+  Stopwatch watch_;
   std::size_t drawn_ = 0;
   std::vector<double> seconds_, gpuSeconds_;
 };
@@ -144,12 +140,12 @@ class PathFrames {
 
 Benchmark drawPath(const Scene& scene, const LightMaps& maps, const WalkPath& path, const PathFramesOptions& options,
                    const PathFramesSink& sink) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   const HeadlessGl gl;
   checkPictureSize(options.render);
   PathFrames frames(scene, maps, path, options);
   glFinish();
-  const double loadSeconds = secondsSince(start);
+  const double loadSeconds = watch.seconds();
   Benchmark benchmark = frames.draw(sink);
   benchmark.loadSeconds = loadSeconds;
   throwOnComplaint(gl.messages(), "drawing");

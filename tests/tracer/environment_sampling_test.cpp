@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "base/math.h"
 #include "tests/support/statistics.h"
 #include "tests/tracer/environment_maps.h"
 #include "tracer/optics/environment.h"
@@ -11,7 +12,6 @@
 namespace lucarne {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 constexpr int kWidth = 48, kHeight = 25;  // of the map
 constexpr int kAcross = 20, kDown = 16;   // bins of equal solid angle, not along the borders of pixels
 constexpr int kSamples = 1000000;

@@ -1,3 +1,4 @@
+#include "base/math.h"
 #include "tracer/optics/environment.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,6 @@ namespace {
 using test::constantMap;
 using test::sunMap;
 
-constexpr double kPiD = 3.14159265358979323846;
 
 Vec3f unit(double x, double y, double z) { return Vec3f(normalize(Vec3d(x, y, z))); }
 

@@ -8,7 +8,6 @@
 namespace lucarne {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 
 /// Falloff of a spot at cosine c: ((c − cosOuter)/(cosInner − cosOuter))², 1 inside the inner cone
 /// (KHR_lights_punctual). Its flux per unit of intensity is 2π[(1 − ci) + (ci − co)/3].

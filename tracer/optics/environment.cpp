@@ -13,7 +13,6 @@
 namespace lucarne {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 
 /// Rounding a direction to floats turns it by less than this, about its azimuth as well as away from the pole.
 constexpr double kRoundingAngle = 2e-7;

@@ -83,6 +83,11 @@ const Json* findMember(const Json& object, const char* key) {
   return it == object.end() ? nullptr : &*it;
 }
 
+std::size_t sizeOf(const Json& object, const char* key) {
+  const Json* list = findMember(object, key);
+  return list == nullptr ? 0 : list->size();
+}
+
 const Json* findObject(const Json& object, const char* key, const Place& place) {
   return findTyped(object, key, &Json::is_object, "an object", place);
 }

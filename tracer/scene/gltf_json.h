@@ -37,6 +37,8 @@ Json parseGltfJson(std::string_view text, const Place& file);
 
 /// The member, or null where it is absent.
 const Json* findMember(const Json& object, const char* key);
+/// Elements of that member; 0 where it is absent.
+std::size_t sizeOf(const Json& object, const char* key);
 /// The member if present; fails unless it is of the named type.
 const Json* findObject(const Json& object, const char* key, const Place& place);
 const Json* findArray(const Json& object, const char* key, const Place& place);

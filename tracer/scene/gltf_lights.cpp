@@ -8,7 +8,6 @@
 namespace lucarne {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 
 /// Unit vector along the image of a unit axis, robust to scales that are tiny, huge or zero.
 Vec3d worldAxis(const WorldNode& node, Vec3d axis) {
@@ -28,10 +27,10 @@ void readCone(const Json& json, Light& light, const Place& place) {
   static const Json none = Json::object();
   const Json* spot = findObject(json, "spot", place);
   const Json& cone = spot == nullptr ? none : *spot;
-  const double outer = std::clamp(numberOf(cone, "outerConeAngle", kPi / 4, place.in("spot")), 0.0, kPi / 2);
+  const double outer = std::clamp(numberOf(cone, "outerConeAngle", kPiD / 4, place.in("spot")), 0.0, kPiD / 2);
   const double inner = std::clamp(numberOf(cone, "innerConeAngle", 0, place.in("spot")), 0.0, outer);
-  light.cosInner = cosPi(inner / kPi);
-  light.cosOuter = cosPi(outer / kPi);
+  light.cosInner = cosPi(inner / kPiD);
+  light.cosOuter = cosPi(outer / kPiD);
 }
 
 Light readLight(const Json& json, const Place& place) {
@@ -109,7 +108,7 @@ std::vector<Camera> readCameras(const GltfSource& source, const std::vector<Worl
     Camera camera = placedCamera(node);
     camera.name = nodeName(source, node.node, textOf(list[index], "name", "", place));
     camera.yfov = numberOf(*perspective, "yfov", 0, place.in("perspective"));
-    if (!(camera.yfov > 0 && camera.yfov < kPi)) place.in("perspective").fail("has a yfov outside 0 .. pi");
+    if (!(camera.yfov > 0 && camera.yfov < kPiD)) place.in("perspective").fail("has a yfov outside 0 .. pi");
     cameras.push_back(std::move(camera));
   }
   if (orthographic > 0) leftOut.emplace_back("orthographic cameras: left out");

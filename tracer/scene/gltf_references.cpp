@@ -103,11 +103,6 @@ void markViews(UsedReferences& used, const Json& json) {
   forEachOf(json, "images", [&](const Json& image) { markMember(used.views, image, "bufferView"); });
 }
 
-std::size_t sizeOf(const Json& json, const char* key) {
-  const Json* list = findMember(json, key);
-  return list == nullptr ? 0 : list->size();
-}
-
 }  // namespace
 
 UsedReferences usedReferences(const Json& json) {

@@ -7,13 +7,12 @@
 namespace lucarne {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 
 /// KHR_texture_transform, but for its texCoord.
 void readTransform(const Json& transform, const Place& place, TextureUse& use) {
   const auto offset = numbersOf<2>(transform, "offset", {0, 0}, place);
   const auto scale = numbersOf<2>(transform, "scale", {1, 1}, place);
-  const double turn = numberOf(transform, "rotation", 0, place) / kPi;
+  const double turn = numberOf(transform, "rotation", 0, place) / kPiD;
   const double c = cosPi(turn), s = sinPi(turn);
   // offset · rotation · scale; the rotation is counter-clockwise as seen, and v points down.
   const std::array<double, 6> m = {c * scale[0], s * scale[1], -s * scale[0], c * scale[1], offset[0], offset[1]};

@@ -14,11 +14,6 @@ constexpr std::array kTopLevelArrays = {"accessors", "animations", "buffers", "b
                                         "images",    "materials",  "meshes",  "nodes",       "samplers",
                                         "scenes",    "skins",      "textures"};
 
-std::size_t sizeOf(const Json& json, const char* key) {
-  const Json* list = findMember(json, key);
-  return list == nullptr ? 0 : list->size();
-}
-
 template <class Check>
 void forEach(const Json& json, const char* key, const Place& place, const Check& check) {
   const Json& list = objectArray(json, key, place);

@@ -82,6 +82,7 @@ struct Material {
   bool transmits() const { return transmission > 0 && !unlit; }
   /// False where alpha is 1 everywhere or ignored.
   bool hasAlpha() const { return alphaMode != AlphaMode::opaque && !unlit; }
+  bool stopsLight() const { return !hasAlpha() && !transmits(); }
 };
 
 struct Triangle {
