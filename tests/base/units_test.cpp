@@ -13,7 +13,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max();
 
 template <class Parse>
 void expectRefused(Parse parse, std::initializer_list<const char*> texts) {
@@ -39,8 +39,8 @@ TEST(ParseCount, IsExactUpToTheLargest) {
   EXPECT_EQ(count("00012"), 12u);
   EXPECT_EQ(count("1.0000000000000000000000000000"), 1u);
   EXPECT_EQ(count("9007199254740993"), 9007199254740993u);  // 2^53 + 1: not a double
-  EXPECT_EQ(count("18446744073709551615"), kMost);
-  EXPECT_EQ(count("18446744.073709551615T"), kMost);
+  EXPECT_EQ(count("18446744073709551615"), kLargest);
+  EXPECT_EQ(count("18446744.073709551615T"), kLargest);
 }
 
 TEST(ParseCount, RefusesEverythingElse) {
@@ -91,7 +91,7 @@ TEST(FormatCount, ShowsThreeDigits) {
   EXPECT_EQ(formatCount(1'234'567), "1.23M");
   EXPECT_EQ(formatCount(123'456), "123k");
   EXPECT_EQ(formatCount(999'949), "1M");
-  EXPECT_EQ(formatCount(kMost), "18.4E");
+  EXPECT_EQ(formatCount(kLargest), "18.4E");
 }
 
 TEST(FormatBytes, UsesBinaryUnits) {
