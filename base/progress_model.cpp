@@ -34,7 +34,9 @@ void ProgressModel::update(double now, std::uint64_t photons, std::uint64_t rays
 }
 
 void ProgressModel::paused(double from, double to) {
-  last_ += std::max(0.0, to - std::max(from, last_));
+  const double newly = std::max(0.0, to - std::max(from, last_));
+  last_ += newly;
+  paused_ += newly;
 }
 
 void ProgressModel::estimated(double error, std::uint64_t photons) {
@@ -42,9 +44,9 @@ void ProgressModel::estimated(double error, std::uint64_t photons) {
   errorPhotons_ = static_cast<double>(photons);
 }
 
-double ProgressModel::meanPhotonRate(double now) const { return perSecond(photons_ - earlierPhotons_, now - start_); }
+double ProgressModel::meanPhotonRate(double now) const { return perSecond(photons_ - earlierPhotons_, now - start_ - paused_); }
 
-double ProgressModel::meanRayRate(double now) const { return perSecond(rays_ - earlierRays_, now - start_); }
+double ProgressModel::meanRayRate(double now) const { return perSecond(rays_ - earlierRays_, now - start_ - paused_); }
 
 std::optional<double> ProgressModel::errorAt(double photons) const {
   if (errorPhotons_ <= 0 || photons <= 0) return std::nullopt;

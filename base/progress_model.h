@@ -33,7 +33,7 @@ class ProgressModel {
   const ProgressGoal& goal() const { return goal_; }
   std::uint64_t photons() const { return photons_; }
   double seconds(double now) const { return now - start_; }
-  /// A second: lately, and (mean) since the start.
+  /// A second of tracing: lately, and (mean) since the start.
   double photonRate() const { return photonRate_.perSecond(); }
   double rayRate() const { return rayRate_.perSecond(); }
   double meanPhotonRate(double now) const;
@@ -63,7 +63,7 @@ class ProgressModel {
   double photonsForTargetError() const;
 
   ProgressGoal goal_;
-  double start_, last_;
+  double start_, last_, paused_ = 0;
   std::uint64_t photons_ = 0, rays_ = 0, earlierPhotons_ = 0, earlierRays_ = 0;
   SmoothRate photonRate_, rayRate_;
   double error_ = 0;  // estimated last, at errorPhotons_; 0 photons: never

@@ -69,6 +69,7 @@ struct KnownErrorCase {
   SamplerKind sampler = SamplerKind::sobol;
   bool sky = false;
   std::uint64_t directSamples = 0;
+  KernelShape kernel = KernelShape::pyramid;
 };
 
 void PrintTo(const KnownErrorCase& c, std::ostream* out) { *out << c.name; }
@@ -79,6 +80,7 @@ TEST_P(KnownError, IsTheSpreadOfManyBakes) {
   const KnownErrorCase& c = GetParam();
   BakeOptions options = test::quickOptions(c.photons, c.texelsPerMetre);
   options.sampler = c.sampler;
+  options.kernel.shape = c.kernel;
   if (c.directSamples > 0) {
     options.direct = DirectMode::gathered;
     options.directSamples = c.directSamples;
@@ -116,6 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(KnownErrorCase{"few photons", diffuseRoom, 2'000, 4},
                       KnownErrorCase{"some photons", diffuseRoom, 10'000, 4},
                       KnownErrorCase{"many photons", diffuseRoom, 100'000, 4},
+                      KnownErrorCase{"planes", diffuseRoom, 10'000, 4, SamplerKind::sobol, false, 0, KernelShape::linear},
+                      KnownErrorCase{"adaptive", diffuseRoom, 10'000, 4, SamplerKind::sobol, false, 0, KernelShape::adaptive},
                       KnownErrorCase{"random numbers", diffuseRoom, 20'000, 4, SamplerKind::random},
                       KnownErrorCase{"caustics", glassRoom, 30'000, 4},
                       KnownErrorCase{"small bright lights", test::threeLights, 50'000, 4},

@@ -83,6 +83,7 @@ TEST(ProgressModel, AnInterludeIsNoneOfTheRate) {
   model.update(10, 2'000'000, 0);  // 1 s of tracing since the last
   EXPECT_NEAR(model.photonRate(), 1e6, 1);
   EXPECT_NEAR(model.secondsLeft(10).value(), 8, 1e-6);
+  EXPECT_NEAR(model.meanPhotonRate(10), 1e6, 1);
   EXPECT_NEAR(model.seconds(10), 10, 1e-12) << "but of the time that was spent";
   model.paused(9, 9.5);  // known already
   model.update(11, 3'000'000, 0);
