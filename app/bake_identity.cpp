@@ -43,6 +43,7 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
   o.sampler = choiceAt<SamplerKind>(s.at("sampler"), kSamplers);
   o.light = choiceAt<LightPart>(s.at("light"), kLightParts);
   if (s.has("direct")) o.direct = choiceAt<DirectMode>(s.at("direct"), kDirectModes);
+  if (s.has("moments")) o.moments = s.at("moments").flag();
   if (header.planned.samples > 0) o.directSamples = header.planned.samples;
   o.environmentHash = s.at("environment").text();
   if (!o.environmentHash.empty()) o.environment = header.environmentName;
@@ -81,6 +82,7 @@ json traceSettings(const BakeOptions& o) {
           {"fixed_point_bits", kFixedPointBits},
           {"depth_limit", TraceLimits{}.depth}};
   if (gathersDirect(o)) settings["direct"] = kDirectModes[static_cast<std::size_t>(o.direct)];
+  if (o.moments) settings["moments"] = true;
   return settings;
 }
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/units.h"
+#include "dlm/mean_direction.h"
 
 namespace lucarne {
 namespace {
@@ -53,7 +54,8 @@ std::uint64_t mapMaking(const BakeOptions& options, const Scene& scene, const Ta
   constexpr std::uint64_t kTexel = 24, kTriangle = 150;
   constexpr double kPage = 1.25;  // pixels of pages a texel
   const std::uint64_t directional = directionalTexels(tallies);
-  const std::uint64_t maps = kTexel * tallies.texels + sizeof(Rgb) * directional;
+  const std::uint64_t means = options.moments ? sizeof(Vec3f) * directional : 0;
+  const std::uint64_t maps = kTexel * tallies.texels + sizeof(Rgb) * directional + means;
   const double irradiancePages = kPage * 24 * static_cast<double>(tallies.texels);
   const double directionalPages = kPage * 14 * static_cast<double>(directional);
   const std::uint64_t geometry = kTriangle * scene.triangles.size();
@@ -82,9 +84,10 @@ DiskNeeds predictDisk(const BakeOptions& options, const Scene& scene, const Bake
   constexpr std::uint64_t kLayerBytes = 4096, kSideBytes = 200,
                           kMapBytes = 16;  // of headers; of entries in the manifest
   constexpr std::uint64_t kPartHead = 65536;
-  const auto mapTexel = static_cast<std::uint64_t>(bytesPerTexel(options.format.directional));
+  const std::uint64_t meanTexel = options.moments ? kMeanBytes : 0;
+  const auto mapTexel = static_cast<std::uint64_t>(bytesPerTexel(options.format.directional)) + meanTexel;
   const std::uint64_t atlasCoordinates = 3 * 2 * sizeof(float) * scene.triangles.size();
-  const std::uint64_t layers = 5 + static_cast<std::uint64_t>(options.directions);
+  const std::uint64_t layers = 5 + static_cast<std::uint64_t>(options.directions) * (options.moments ? 2 : 1);
   DiskNeeds needs;
   needs.maps = glbBytes + atlasCoordinates + kLayerBytes * layers;
   for (const TallySide& side : plan.tallies.sides) {
@@ -122,7 +125,7 @@ std::string advice(const BakeOptions& options, const Scene& scene, const BakePla
   const auto peakOf = [&](const BakeOptions& o) {
     const TexelLayout layout = layOutTexels(scene, plan.charts, {o.texelsPerMetre, o.texelBudget});
     DirectionSet directions(o.directions);
-    TallyLayout tallies = planTallies(scene, plan.charts, layout, directions, o.keepAllDirections);
+    TallyLayout tallies = planTallies(scene, plan.charts, layout, directions, tallyWishes(o));
     return predictMemory(o, scene, {{}, {}, std::move(directions), std::move(tallies)}, soFar).peak();
   };
   const double density = largestFitting(plan.layout.texelsPerMetre, [&](double d) {

@@ -106,6 +106,8 @@ IndexRange samplesOf(const BakeOptions& o) {
   return {cut(photons.begin), cut(photons.end)};
 }
 
+TallyWishes tallyWishes(const BakeOptions& o) { return {o.keepAllDirections, o.moments}; }
+
 Tallies::Sets tallySets(const BakeOptions& o) {
   return gathersDirect(o) ? Tallies::Sets::photonsAndDirect : Tallies::Sets::photons;
 }

@@ -50,6 +50,7 @@ struct BakeOptions {
   std::uint64_t texelBudget = 1'000'000;
   ChartMode charts = ChartMode::automatic;
   bool keepAllDirections = false;
+  bool moments = false;  // mean directions beside the light of each cell (tally.h)
   KernelOptions kernel;
   SeamMode seams = SeamMode::fit;
   double dropError = 0;  // maps of faint directions are left out under this bound (drop_maps.h)
@@ -104,6 +105,8 @@ bool tracesPhotons(const BakeOptions& options);
 /// The samples of this piece of the bake: as many of the whole as photons of theirs, cut where the photons are, so that
 /// pieces that hold every photon once hold every sample once. Empty when nothing is gathered.
 IndexRange samplesOf(const BakeOptions& options);
+/// What is counted beyond the light that materials need.
+TallyWishes tallyWishes(const BakeOptions& options);
 /// The tallies of the options.
 Tallies::Sets tallySets(const BakeOptions& options);
 

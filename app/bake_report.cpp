@@ -56,7 +56,7 @@ std::string rayCasters(const std::set<Maker>& makers) {
 }
 
 std::uint64_t storedMapBytes(const LightMaps& maps) {
-  return maps.directional.size() * sizeof(Rgb) + maps.irradiance.size() * (sizeof(Rgb) + 2 * sizeof(float));
+  return maps.directional.size() * sizeof(Rgb) + maps.meanDirections.size() * sizeof(Vec3f) + maps.irradiance.size() * (sizeof(Rgb) + 2 * sizeof(float));
 }
 
 nlohmann::json seamsToJson(const SeamReport& r, const BakeOptions& o) {

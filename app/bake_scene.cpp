@@ -22,7 +22,7 @@ BakePlan makePlan(const Scene& scene, const BakeOptions& options, std::uint64_t 
   ChartSet charts = growCharts(scene, chartOptions);
   TexelLayout layout = layOutTexels(scene, charts, {options.texelsPerMetre, options.texelBudget, texelLimit});
   DirectionSet directions(options.directions);
-  TallyLayout tallies = planTallies(scene, charts, layout, directions, options.keepAllDirections);
+  TallyLayout tallies = planTallies(scene, charts, layout, directions, tallyWishes(options));
   return {std::move(charts), std::move(layout), std::move(directions), std::move(tallies)};
 }
 

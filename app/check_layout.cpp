@@ -5,6 +5,7 @@
 #include "app/bake_scene.h"
 #include "base/memory.h"
 #include "base/units.h"
+#include "dlm/mean_direction.h"
 
 namespace lucarne {
 namespace {
@@ -98,9 +99,10 @@ void warnOfLayout(const CheckInput& in, const TinyCharts& tiny, CheckWarnings& w
 std::uint64_t dlmBytes(const CheckInput& in) {
   constexpr std::uint64_t kLayerBytes = 4096, kSideBytes = 200,
                           kMapBytes = 16;  // of headers; of entries in the manifest
-  const auto mapTexel = static_cast<std::uint64_t>(bytesPerTexel(in.options.format.directional));
+  const std::uint64_t meanTexel = in.options.moments ? kMeanBytes : 0;
+  const auto mapTexel = static_cast<std::uint64_t>(bytesPerTexel(in.options.format.directional)) + meanTexel;
   const std::uint64_t atlasCoordinates = 3 * 2 * sizeof(float) * in.scene().triangles.size();
-  const std::uint64_t layers = 5 + static_cast<std::uint64_t>(in.options.directions);
+  const std::uint64_t layers = 5 + static_cast<std::uint64_t>(in.options.directions) * (in.options.moments ? 2 : 1);
   std::uint64_t bytes = in.glbBytes + atlasCoordinates + kLayerBytes * layers;
   for (const TallySide& side : in.plan.tallies.sides) {
     const std::uint64_t maps = in.plan.tallies.membersOf(side).members.size();
@@ -111,9 +113,10 @@ std::uint64_t dlmBytes(const CheckInput& in) {
 }
 
 std::uint64_t mapBytes(const TallyLayout& tallies) {
+  const std::uint64_t mapTexel = sizeof(Rgb) + (tallies.momentEntries > 0 ? sizeof(Vec3f) : 0);
   std::uint64_t bytes = 0;
   for (const TallySide& side : tallies.sides)
-    bytes += side.texelCount() * (20 + sizeof(Rgb) * tallies.membersOf(side).members.size());
+    bytes += side.texelCount() * (20 + mapTexel * tallies.membersOf(side).members.size());
   return bytes;
 }
 

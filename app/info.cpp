@@ -48,6 +48,7 @@ nlohmann::json describePart(const std::filesystem::path& path) {
   d["seed"] = h.identity.settings.value("seed", nlohmann::json());
   d["light_entries"] = h.lightEntries;
   d["texels"] = h.texels;
+  if (h.momentEntries > 0) d["moment_entries"] = h.momentEntries;
   d["missing"] = toText(missingPhotons(h));
   d["seconds"] = static_cast<double>(h.microseconds) * 1e-6;
   d["tally_bytes"] = h.tallyBytes();

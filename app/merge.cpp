@@ -124,7 +124,8 @@ struct MergedScene {
               const std::string& name)
       : scene(readScene(glb, name)), plan(makePlanWithin(scene, baked, whole.texels, name)) {
     if (lightHash(scene) != whole.identity.scene) throw Error(ExitCode::mergeRefused, altered(name));
-    const bool sameSize = plan.tallies.lightEntries == whole.lightEntries && plan.tallies.texels == whole.texels;
+    const bool sameSize = plan.tallies.lightEntries == whole.lightEntries && plan.tallies.texels == whole.texels &&
+                          plan.tallies.momentEntries == whole.momentEntries;
     if (layoutHash(plan) == whole.identity.layout && sameSize) return;
     const std::string& build = whole.makers.begin()->build;
     throw Error(ExitCode::mergeRefused,

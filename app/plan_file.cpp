@@ -84,6 +84,7 @@ constexpr Named kNamed[] = {{"--photons", "photons"},
                             {"--texels", "texel_budget"},
                             {"--charts", "charts"},
                             {"--keep-all-directions", "keep_all_directions"},
+                            {"--moments", "moments"},
                             {"--seed", "seed"},
                             {"--sampler", "sampler"},
                             {"--light", "light"},
@@ -106,6 +107,7 @@ json settingsOfResult(const BakeOptions& o) {
   all["photons"] = o.photons;
   all["direct"] = o.direct == DirectMode::gathered ? "gathered" : "photons";
   all["direct_samples"] = o.directSamples;
+  all["moments"] = o.moments;
   all["seams"] = seamsName(o);
   all["drop_error"] = o.dropError;
   all["format"] = nameOf(o.format.directional);
@@ -123,6 +125,7 @@ BakeOptions joined(BakeOptions into, const BakeOptions& settings) {
   into.texelBudget = settings.texelBudget;
   into.charts = settings.charts;
   into.keepAllDirections = settings.keepAllDirections;
+  into.moments = settings.moments;
   into.kernel = settings.kernel;
   into.seams = settings.seams;
   into.dropError = settings.dropError;

@@ -49,7 +49,8 @@ void checkAgainst(const PartHeader& whole, const PartHeader& part, const std::ve
                          part.makers.begin()->build + "): bake all parts with one"
                    : "only parts of one scene and one set of settings can be merged"));
   }
-  if (whole.lightEntries != part.lightEntries || whole.texels != part.texels) {
+  if (whole.lightEntries != part.lightEntries || whole.texels != part.texels ||
+      whole.momentEntries != part.momentEntries) {
     refuse(both + " differ in size of their tallies although they are of one layout; one of them was altered");
   }
   if (whole.direct.has_value() != part.direct.has_value())

@@ -13,10 +13,20 @@
 
 namespace lucarne {
 
-/// Written aside, flushed, renamed. Fills in header.sceneBytes, sceneFile, lightEntries, texels and content from what it is given.
+/// Written aside, flushed, renamed. Fills in header.sceneBytes, sceneFile, lightEntries, texels, momentEntries and content
+/// from what it is given.
 /// Throws Error as AtomicFile does, and a std::logic_error when a tally is negative (it has overflowed).
 void writePart(const std::filesystem::path& path, PartHeader header, std::span<const std::uint8_t> scene,
                const Tallies& tallies);
+
+/// The tallies that a layer holds; `tallies` have the set that it is of.
+inline std::span<std::int64_t> talliesOf(PartLayer layer, const Tallies& tallies) {
+  const bool direct = layer >= PartLayer::directLight;
+  const Tallies& set = direct ? *tallies.direct() : tallies;
+  if (isLight(layer)) return set.light();
+  const bool statistics = layer == PartLayer::statistics || layer == PartLayer::directStatistics;
+  return statistics ? set.statistics() : set.moments();
+}
 
 /// A part opened for reading. The header is believed for its form; that the file is whole and unaltered is known only
 /// when stream() has come to its end. All failures are PartErrors that name the file; a file that cannot be read at all
@@ -28,7 +38,7 @@ class PartReader {
   const std::filesystem::path& path() const { return file_.path(); }
 
   /// What stream() hands over, in this order: bytes of the scene, then rows of tallies. `first` counts values, in the
-  /// order of Tallies::light() and statistics().
+  /// order of Tallies::light(), statistics() and moments().
   struct Sink {
     std::function<void(std::span<const std::uint8_t>)> scene;
     std::function<void(PartLayer, std::uint64_t first, std::span<const std::int64_t>)> tallies;

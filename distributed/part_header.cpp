@@ -84,7 +84,7 @@ constexpr auto kMostSamples = static_cast<std::int64_t>(kMostDirectSamples);
 
 /// What sets of tallies have in common.
 json tallySet(const PartHeader& h, const std::string& name, const IndexSet& ranges) {
-  return {{"name", name},
+  json set = {{"name", name},
           {"ranges", toJson(ranges)},
           {"normaliser", ranges.count()},
           {"fixed_point_bits", kFixedPointBits},
@@ -93,6 +93,12 @@ json tallySet(const PartHeader& h, const std::string& name, const IndexSet& rang
           {"statistics_channels", {"count", "m2", "odd"}},
           {"light_entries", h.lightEntries},
           {"texels", h.texels}};
+  if (h.momentEntries > 0) {
+    set["layers"].push_back(name + ".moments");
+    set["moment_channels"] = {"x", "y", "z"};
+    set["moment_entries"] = h.momentEntries;
+  }
+  return set;
 }
 
 json photonSet(const PartHeader& h) {
@@ -113,6 +119,7 @@ void readPhotonSet(const JsonView& set, PartHeader& h) {
   h.photons = rangesFrom(set.at("ranges"));
   h.lightEntries = set.at("light_entries").count();
   h.texels = set.at("texels").count();
+  if (set.has("moment_entries")) h.momentEntries = set.at("moment_entries").count();
   h.ledger = ledgerFromState(set.at("ledger"));
   // A scene without light is not traced, nor one whose stored light is all gathered.
   if (h.ledger.photons != 0 && h.ledger.photons != h.photons.count())
@@ -141,11 +148,12 @@ bool operator<(const Maker& a, const Maker& b) {
 Hash128 BakeIdentity::settingsHash() const { return hashOf(settings); }
 
 std::uint64_t PartHeader::tallyBytes() const {
-  return 8 * (lightEntries * kLightChannels + texels * kStatisticsChannels) * (direct ? 2 : 1);
+  return 8 * (lightEntries * kLightChannels + texels * kStatisticsChannels + momentEntries * kMomentChannels) *
+         (direct ? 2 : 1);
 }
 
 Tallies PartHeader::makeTallies() const {
-  return Tallies(lightEntries, texels, direct ? Tallies::Sets::photonsAndDirect : Tallies::Sets::photons);
+  return Tallies(lightEntries, texels, direct ? Tallies::Sets::photonsAndDirect : Tallies::Sets::photons, momentEntries);
 }
 
 void PartHeader::add(const PartHeader& other) {

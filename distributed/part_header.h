@@ -72,7 +72,7 @@ struct PartHeader {
   std::uint64_t microseconds = 0;  // of tracing, all runs and machines together
   std::optional<DirectPart> direct;  // none: direct light is not gathered
   RateCurve rates;                   // of tracing; none of a sum of parts, which have no clock in common
-  std::uint64_t sceneBytes = 0, lightEntries = 0, texels = 0;
+  std::uint64_t sceneBytes = 0, lightEntries = 0, texels = 0, momentEntries = 0;
   Hash128 sceneFile;  // of the bytes of the scene in this part, packed as one GLB: cameras, names and all
   Hash128 content;    // of the tallies: content_hash
 

@@ -22,10 +22,10 @@ int rowsFor(std::uint64_t pixels, const std::string& file) {
 
 /// Where channel c of a pixel stands in the alphabetical order of its row: its high word, then its low word.
 constexpr std::array<std::size_t, 3> kLightPlaces = {2, 1, 0};  // r, g, b stand as b, g, r
-constexpr std::array<std::size_t, 3> kStatisticsPlaces = {0, 1, 2};
+constexpr std::array<std::size_t, 3> kOtherPlaces = {0, 1, 2};  // count, m2, odd; x, y, z
 
 constexpr std::size_t placeOf(PartLayer layer, std::size_t channel) {
-  return isLight(layer) ? kLightPlaces[channel] : kStatisticsPlaces[channel];
+  return isLight(layer) ? kLightPlaces[channel] : kOtherPlaces[channel];
 }
 
 /// One channel at a time over a row of constant length, which compilers turn into vector code.
@@ -66,11 +66,27 @@ ExrRows partRows(const PartHeader& header, const std::string& file) {
     layers.push_back({name + ".statistics",
                       {"count.hi", "count.lo", "m2.hi", "m2.lo", "odd.hi", "odd.lo"},
                       rowsFor(header.texels, file)});
+    if (header.momentEntries == 0) return;
+    layers.push_back(
+        {name + ".moments", {"x.hi", "x.lo", "y.hi", "y.lo", "z.hi", "z.lo"}, rowsFor(header.momentEntries, file)});
   };
   addSet("photons");
   if (header.direct) addSet("direct");
   return ExrRows(kPartWidth, std::move(layers), kAttribute,
                  toJson(header).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+std::vector<PartTallies> partTallies(const PartHeader& header) {
+  std::vector<PartTallies> all;
+  const auto add = [&](PartLayer layer, std::uint64_t pixels) { all.push_back({layer, all.size() + 1, pixels}); };
+  const auto addSet = [&](PartLayer light, PartLayer statistics, PartLayer moments) {
+    add(light, header.lightEntries);
+    add(statistics, header.texels);
+    if (header.momentEntries > 0) add(moments, header.momentEntries);
+  };
+  addSet(PartLayer::light, PartLayer::statistics, PartLayer::moments);
+  if (header.direct) addSet(PartLayer::directLight, PartLayer::directStatistics, PartLayer::directMoments);
+  return all;
 }
 
 void splitRow(PartLayer layer, std::span<const std::int64_t> values, std::span<std::uint32_t> row) {

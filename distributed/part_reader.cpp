@@ -57,12 +57,7 @@ class PartStream {
   void run() {
     expect(rows_.head());
     scene();
-    tallies(PartLayer::light, header_.lightEntries);
-    tallies(PartLayer::statistics, header_.texels);
-    if (header_.direct) {
-      tallies(PartLayer::directLight, header_.lightEntries);
-      tallies(PartLayer::directStatistics, header_.texels);
-    }
+    for (const PartTallies& at : partTallies(header_)) tallies(at);
     const std::string seal = partSeal(reader_.hash());
     expect(seal);
     if (content_.finish() != header_.content || sceneHash_.finish() != header_.sceneFile) failAltered(path_);
@@ -79,8 +74,7 @@ class PartStream {
     if (std::memcmp(here.data(), bytes.data(), bytes.size()) != 0) failAltered(path_);
   }
   template <class F>
-  void forRows(PartLayer layer, F&& f) {
-    const auto index = static_cast<std::size_t>(layer);
+  void forRows(std::size_t index, F&& f) {
     for (int y = 0; y < rows_.layers()[index].height; ++y) {
       expect(rows_.rowHead(index, y));
       f(static_cast<std::uint64_t>(y), take(rows_.rowBytes(index)));
@@ -89,7 +83,7 @@ class PartStream {
 
   void scene() {
     std::uint64_t left = header_.sceneBytes;
-    forRows(PartLayer::scene, [&](std::uint64_t, std::span<const std::byte> row) {
+    forRows(0, [&](std::uint64_t, std::span<const std::byte> row) {
       const auto bytes = row.first(std::min<std::uint64_t>(left, row.size()));
       left -= bytes.size();
       sceneHash_.add(bytes);
@@ -97,10 +91,11 @@ class PartStream {
     });
   }
 
-  void tallies(PartLayer layer, std::uint64_t pixels) {
-    std::vector<std::uint32_t> words(rows_.rowBytes(static_cast<std::size_t>(layer)) / 4);
+  void tallies(const PartTallies& at) {
+    const auto [layer, index, pixels] = at;
+    std::vector<std::uint32_t> words(rows_.rowBytes(index) / 4);
     std::vector<std::int64_t> values(kPartWidth * kPartChannels);
-    forRows(layer, [&](std::uint64_t y, std::span<const std::byte> row) {
+    forRows(index, [&, layer = layer, pixels = pixels](std::uint64_t y, std::span<const std::byte> row) {
       std::memcpy(words.data(), row.data(), row.size());
       const std::uint64_t first = y * kPartWidth;
       const auto here =
@@ -154,7 +149,8 @@ PartHeader PartReader::readHeader() const {
 PartReader::PartReader(const std::filesystem::path& path) : file_(path), header_(readHeader()), rows_(0, {}, "", "") {
   // Before anything of that size is made: a layer takes at least its bytes in the file.
   const std::uint64_t size = file_.size();
-  if (header_.sceneBytes > size || header_.lightEntries > size / 24 || header_.texels > size / 24) {
+  if (header_.sceneBytes > size || header_.lightEntries > size / 24 || header_.texels > size / 24 ||
+      header_.momentEntries > size / 24) {
     throw PartError(path.string() + " is cut short: it has " + std::to_string(size) +
                     " bytes, fewer than its tallies take");
   }
@@ -179,9 +175,7 @@ class TallyAdder {
  public:
   explicit TallyAdder(Tallies& tallies) : tallies_(tallies) {}
   void add(PartLayer layer, std::uint64_t first, std::span<const std::int64_t> values) {
-    const bool direct = layer == PartLayer::directLight || layer == PartLayer::directStatistics;
-    const Tallies& set = direct ? *tallies_.direct() : tallies_;
-    std::int64_t* sum = (isLight(layer) ? set.light() : set.statistics()).data() + first;
+    std::int64_t* sum = talliesOf(layer, tallies_).data() + first;
     std::int64_t negative = 0, overflow = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       sum[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum[i]) + static_cast<std::uint64_t>(values[i]));
@@ -204,6 +198,7 @@ class TallyAdder {
 void addPart(const PartReader& part, Tallies& tallies, std::vector<std::uint8_t>* scene) {
   if (tallies.light().size() != part.header().lightEntries * kLightChannels ||
       tallies.statistics().size() != part.header().texels * kStatisticsChannels ||
+      tallies.moments().size() != part.header().momentEntries * kMomentChannels ||
       (tallies.direct() != nullptr) != part.header().direct.has_value()) {
     throw PartError(part.path().string() + " was altered: its tallies are of another size than its layout");
   }

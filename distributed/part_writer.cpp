@@ -38,8 +38,8 @@ void writeScene(const ExrRows& rows, std::span<const std::uint8_t> scene, Sealed
   }
 }
 
-void writeTallies(const ExrRows& rows, PartLayer layer, std::span<const std::int64_t> values, SealedFile& file) {
-  const auto index = static_cast<std::size_t>(layer);
+void writeTallies(const ExrRows& rows, const PartTallies& at, std::span<const std::int64_t> values, SealedFile& file) {
+  const std::size_t index = at.index;
   const std::size_t perRow = kPartWidth * kPartChannels;
   std::vector<std::uint32_t> row(rows.rowBytes(index) / 4);
   for (int y = 0; y < rows.layers()[index].height; ++y) {
@@ -49,7 +49,7 @@ void writeTallies(const ExrRows& rows, PartLayer layer, std::span<const std::int
     for (const std::int64_t v : here) signs |= v;
     LUCARNE_CHECK_LE(std::int64_t{0}, signs);
     if (here.size() < perRow) std::fill(row.begin(), row.end(), 0);
-    splitRow(layer, here, row);
+    splitRow(at.layer, here, row);
     file.write(rows.rowHead(index, y));
     file.write(row.data(), row.size() * 4);
   }
@@ -63,18 +63,14 @@ void writePart(const std::filesystem::path& path, PartHeader header, std::span<c
   header.sceneFile = hashBytes(scene);
   header.lightEntries = tallies.light().size() / kLightChannels;
   header.texels = tallies.statistics().size() / kStatisticsChannels;
+  header.momentEntries = tallies.moments().size() / kMomentChannels;
   header.content = tallies.contentHash();
   LUCARNE_CHECK_EQ(header.direct.has_value(), tallies.direct() != nullptr);
   const ExrRows rows = partRows(header, path.string());
   SealedFile file(path);
   file.write(rows.head());
   writeScene(rows, scene, file);
-  writeTallies(rows, PartLayer::light, tallies.light(), file);
-  writeTallies(rows, PartLayer::statistics, tallies.statistics(), file);
-  if (tallies.direct() != nullptr) {
-    writeTallies(rows, PartLayer::directLight, tallies.direct()->light(), file);
-    writeTallies(rows, PartLayer::directStatistics, tallies.direct()->statistics(), file);
-  }
+  for (const PartTallies& at : partTallies(header)) writeTallies(rows, at, talliesOf(at.layer, tallies), file);
   file.commit();
 }
 

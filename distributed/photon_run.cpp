@@ -39,7 +39,7 @@ class Worker {
   virtual void reset() = 0;
 };
 
-template <bool shared>
+template <bool shared, bool moments>
 class SinkWorker final : public Worker {
  public:
   SinkWorker(const PhotonTask& task, const PhotonRunOptions& options, const Tallies& tallies)
@@ -73,7 +73,7 @@ class SinkWorker final : public Worker {
  private:
   const PhotonTask& task_;
   const PhotonRunOptions& options_;
-  DepositSink<shared> sink_;
+  DepositSink<shared, moments> sink_;
   Ledger ledger_;
 };
 
@@ -124,10 +124,9 @@ class PhotonRun::Impl {
     copies_.reserve(threads);
     for (std::size_t i = 0; i < threads; ++i) {
       if (shared) {
-        workers_.push_back(std::make_unique<SinkWorker<true>>(task_, options_, tallies_));
+        workers_.push_back(makeWorker<true>(tallies_));
       } else {
-        const Tallies& own = i == 0 ? tallies_ : copies_.emplace_back(task.layout);
-        workers_.push_back(std::make_unique<SinkWorker<false>>(task_, options_, own));
+        workers_.push_back(makeWorker<false>(i == 0 ? tallies_ : copies_.emplace_back(task.layout)));
       }
     }
   }
@@ -155,6 +154,12 @@ class PhotonRun::Impl {
   }
 
  private:
+  template <bool shared>
+  std::unique_ptr<Worker> makeWorker(const Tallies& tallies) const {
+    if (task_.layout.momentEntries > 0) return std::make_unique<SinkWorker<shared, true>>(task_, options_, tallies);
+    return std::make_unique<SinkWorker<shared, false>>(task_, options_, tallies);
+  }
+
   /// How many, from the beginning of the range.
   std::uint64_t traceBatch(IndexRange range) {
     Batch batch(range, workers_.size());

@@ -5,7 +5,7 @@ namespace lucarne {
 TexelMap::TexelMap(const Scene& scene, const ChartSet& charts, const TexelLayout& layout, const TallyLayout& tallies) {
   for (const TallySide& s : tallies.sides) {
     const MemberSet& set = tallies.membersOf(s);
-    sides_.push_back({s.width, s.height, s.firstLight, s.firstTexel, s.texelCount(),
+    sides_.push_back({s.width, s.height, s.firstLight, s.firstTexel, s.texelCount(), s.firstMoment,
                       set.members.empty() ? nullptr : set.rank.data()});
   }
   entries_.resize(scene.triangles.size(), Entry{{}, {}, {}, kNone, kNone});

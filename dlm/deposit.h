@@ -28,6 +28,7 @@ class TexelMap {
   struct Side {  // of TallyLayout::sides what a deposit reads
     int width, height;
     std::uint64_t firstLight, firstTexel, texelCount;
+    std::uint64_t firstMoment;
     const std::uint16_t* rank;  // by ψ; null: one map takes all
   };
   /// `tallies` must outlive this.
@@ -46,9 +47,9 @@ struct DepositSums {
   std::uint64_t storedHits = 0, clamped = 0;
 };
 
-/// One thread's sink. `shared`: other threads add to the same tallies (relaxed atomic adds), else plain adds. Flushed
-/// by flush(), which must be called before the tallies are read.
-template <bool shared>
+/// One thread's sink. `shared`: other threads add to the same tallies (relaxed atomic adds), else plain adds. `moments`:
+/// the tallies have them. Flushed by flush(), which must be called before the tallies are read.
+template <bool shared, bool moments = false>
 class DepositSink {
  public:
   DepositSink(const TexelMap& map, const TallyLayout&, const DirectionSet& directions, LightPart part,
@@ -57,7 +58,8 @@ class DepositSink {
         directions_(directions),
         part_(part),
         light_(tallies.light().data()),
-        statistics_(tallies.statistics().data()) {}
+        statistics_(tallies.statistics().data()),
+        moments_(tallies.moments().data()) {}
 
   /// What a hit on the triangle will read is asked for early.
   void prefetch(std::uint32_t triangle) const { __builtin_prefetch(&map_[triangle]); }
@@ -77,6 +79,9 @@ class DepositSink {
         side.rank == nullptr ? 0 : side.rank[static_cast<std::size_t>(directions_.nearest(h.wi))];
     const Rgb value = received(h);
     hold(side.firstLight + rank * side.texelCount + texel, side.firstTexel + texel, value, h);
+    if constexpr (moments) {
+      if (side.rank != nullptr) holdMoment(side.firstMoment + rank * side.texelCount + texel, luminance(value), h);
+    }
   }
 
   [[gnu::always_inline]] void endPhoton() {
@@ -111,6 +116,10 @@ class DepositSink {
     float luminance;      // all that the photon brings to the texel
     std::uint32_t word;   // for rounding; its top bit says that the photon is an odd one
   };
+  struct HeldMoment {
+    std::uint64_t entry;
+    std::array<std::int64_t, 3> units;
+  };
 
   static void add(std::int64_t* p, std::int64_t v) {
     if constexpr (shared)
@@ -141,6 +150,13 @@ class DepositSink {
     texels_ |= bit;
   }
 
+  /// The light took the lowest 8 bits of the words.
+  void holdMoment(std::uint64_t entry, float light, const PhotonHit& h) {
+    const Vec3f m = momentOf(light, h.wi);
+    heldMoments_.push_back({entry, {roundUnits(m.x, h.words[0] >> 8), roundUnits(m.y, h.words[1] >> 8),
+                                    roundUnits(m.z, h.words[2] >> 8)}});
+  }
+
   /// One photon may come back to a texel; its share is squared as a whole.
   [[gnu::noinline]] void mergeReturns() {
     for (std::size_t i = firstOfPhoton_; i < held_.size(); ++i) {
@@ -165,10 +181,22 @@ class DepositSink {
       const std::int64_t odd = -static_cast<std::int64_t>((h.word & kOddBit) != 0);
       add(statistics + kOdd, roundUnits(h.luminance, h.word >> 8) & odd);
     }
+    if constexpr (moments) addHeldMoments();
     held_.clear();
     firstOfPhoton_ = 0;
     sums_.incident += incident_;
     incident_ = {};
+  }
+  void addHeldMoments() {
+    if constexpr (shared) {
+      for (const HeldMoment& h : heldMoments_) {
+        __builtin_prefetch(moments_ + h.entry * kMomentChannels, 1);
+        __builtin_prefetch(moments_ + h.entry * kMomentChannels + 2, 1);
+      }
+    }
+    for (const HeldMoment& h : heldMoments_)
+      for (std::size_t c = 0; c < 3; ++c) add(moments_ + h.entry * kMomentChannels + c, h.units[c]);
+    heldMoments_.clear();
   }
   void prefetchHeld() const {
     for (const Held& h : held_) {
@@ -185,6 +213,8 @@ class DepositSink {
   LightPart part_;
   std::int64_t* light_;
   std::int64_t* statistics_;
+  std::int64_t* moments_;
+  std::vector<HeldMoment> heldMoments_;
   std::vector<Held> held_;  // whole photons, and that in flight
   std::size_t firstOfPhoton_ = 0;
   std::uint64_t texels_ = 0;  // of the photon in flight: a bit by hash for each

@@ -64,7 +64,10 @@ class DirectGather::Texel {
         members_(gather.in_.tallies.membersOf(side)),
         number_((side.firstTexel + texel) << 32),
         light_(set.light().data() + (side.firstLight + texel) * kLightChannels),
-        statistics_(set.statistics().data() + (side.firstTexel + texel) * kStatisticsChannels) {}
+        statistics_(set.statistics().data() + (side.firstTexel + texel) * kStatisticsChannels),
+        moments_(set.moments().empty() || members_.members.empty()
+                     ? nullptr
+                     : set.moments().data() + (side.firstMoment + texel) * kMomentChannels) {}
 
   /// `share`: surface over area of the texel.
   void sample(std::uint64_t s, const TexelSurface& surface, std::size_t t, double share, DirectCounts& counts) const {
@@ -77,10 +80,10 @@ class DirectGather::Texel {
     if (!(alpha > 0)) return;
     const ReceivedLight light = gather_.paths_.receiveDirect(at, sampler);
     if (light.count == 0) return;
-    RoundingBits bits(w, number_ + s);
+    RoundingBits bits(w, number_ + s), momentBits(w, ~(number_ + s));  // moments leave the light's numbers as they are
     float sum = 0;
     for (std::size_t i = 0; i < light.count; ++i)
-      sum += add(light.pieces[i], alpha * share / gather_.unit_, bits, counts);
+      sum += add(light.pieces[i], alpha * share / gather_.unit_, bits, momentBits, counts);
     statistics_[kCount] += 1;
     statistics_[kSquares] += roundUnits(std::min(sum * sum, kLargestSquare), bits.next());
     if (s % 2 == 1) statistics_[kOdd] += roundUnits(sum, bits.next());
@@ -88,7 +91,8 @@ class DirectGather::Texel {
 
  private:
   /// Returns the luminance.
-  float add(const ReceivedLight::Piece& piece, double scale, RoundingBits& bits, DirectCounts& counts) const {
+  float add(const ReceivedLight::Piece& piece, double scale, RoundingBits& bits, RoundingBits& momentBits,
+            DirectCounts& counts) const {
     Rgb value(Rgbd(piece.lux) * scale);
     if (!isFinite(value) || minComponent(value) < 0) {
       ++counts.strayValues;
@@ -105,7 +109,13 @@ class DirectGather::Texel {
     at[0] += roundUnits(value.x, bits.next());
     at[1] += roundUnits(value.y, bits.next());
     at[2] += roundUnits(value.z, bits.next());
+    if (moments_ != nullptr) addMoment(rank, momentOf(luminance(value), piece.wi), momentBits);
     return luminance(value);
+  }
+
+  void addMoment(std::size_t rank, Vec3f moment, RoundingBits& bits) const {
+    std::int64_t* at = moments_ + rank * side_.texelCount() * kMomentChannels;
+    for (int c = 0; c < 3; ++c) at[c] += roundUnits(moment[c], bits.next());
   }
 
   const DirectGather& gather_;
@@ -114,6 +124,7 @@ class DirectGather::Texel {
   std::uint64_t number_;  // of sample 0
   std::int64_t* light_;
   std::int64_t* statistics_;
+  std::int64_t* moments_;  // null: none
 };
 
 DirectCounts DirectGather::gatherTile(const TexelTile& tile, IndexRange samples, const Tallies& set) const {

@@ -8,6 +8,7 @@
 // Tallies of this set:   light       Σ over samples of E·α·surface/area, in units of 2^-24 of directUnit()
 //                        statistics  samples that found light, Σ (luminance of a sample)², and Σ luminance of those
 //                                    of odd index, units of 2^-24
+//                        moments     (where there are any) of the light above, as in tally.h
 // so that the mean over samples times area(t') is what resolve.h calls tally(t').
 #pragma once
 

@@ -74,6 +74,17 @@ SphericalIntegral DirectionSet::above(int psi, Vec3d n) const {
 
 ClippedCell DirectionSet::clippedCell(int psi, Vec3d n) const { return finish(above(psi, n), n); }
 
+Vec3d DirectionSet::cosineMoment(int psi, Vec3d n) const {
+  const std::size_t i = static_cast<std::size_t>(psi);
+  Vec3d sum{};
+  for (std::uint32_t k = firstPiece_[i]; k < firstPiece_[i + 1]; ++k) {
+    const std::span<const Vec3d> polygon(vertices_.data() + pieces_[k].first, pieces_[k].count);
+    const bool whole = std::all_of(polygon.begin(), polygon.end(), [&](const Vec3d& v) { return dot(v, n) >= 0; });
+    sum += whole ? momentAlong(polygon, n) : momentAlong(clip(polygon, n).span(), n);
+  }
+  return sum;
+}
+
 ClippedCell DirectionSet::cell(int psi) const {
   const SphericalIntegral& whole = cells_[static_cast<std::size_t>(psi)].whole;
   return {whole.solidAngle, whole.moment, 0};

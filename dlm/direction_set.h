@@ -57,6 +57,9 @@ class DirectionSet {
 
   /// Exact integrals over the cell of ψ above the plane of unit normal `n`; closed forms over spherical polygons.
   ClippedCell clippedCell(int psi, Vec3d n) const;
+  /// ∫ ω (n·ω) dω over the same part: divided by cosIntegral, the mean direction of what constant light brings, as
+  /// mean_direction.h has it.
+  Vec3d cosineMoment(int psi, Vec3d n) const;
   /// The whole cell.
   ClippedCell cell(int psi) const;
   /// True if the cell of ψ reaches above the horizon of `n` (by more than rounding).

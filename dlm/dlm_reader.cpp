@@ -91,6 +91,7 @@ Dlm readDlm(const std::filesystem::path& folder, const DlmStep& observe) {
   ManifestContents contents = readManifestMaps(dlm.manifest, (folder / dlm_file::kManifest).string());
   for (const char* name : {dlm_file::kScene, dlm_file::kIrradiance}) checkSeal(dlm.manifest, folder, name);
   if (!contents.pages.directional.layers.empty()) checkSeal(dlm.manifest, folder, dlm_file::kDirectional);
+  if (contents.pages.directional.means) checkSeal(dlm.manifest, folder, dlm_file::kMoments);
   observe("reading the scene", kChecking);
   const std::filesystem::path scenePath = folder / dlm_file::kScene;
   dlm.scene = readGltf(scenePath);

@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "base/image_file.h"
+#include "dlm/direction_set_cells.h"
+#include "dlm/mean_direction.h"
 #include "dlm/texel_codes.h"
 
 namespace lucarne {
@@ -148,6 +150,45 @@ class PageReader {
   const std::vector<std::uint32_t>* codes_ = nullptr;
 };
 
+/// Calls use(side, direction, place, number) for every stored map, in order.
+template <class Use>
+void forStoredMaps(const LightMaps& maps, const DirectionalPages& pages, Use&& use) {
+  std::size_t k = 0, stored = 0;
+  for (const SideMaps& side : maps.sides) {
+    for (const SideDirection& direction : side.directions) {
+      const std::int64_t place = pages.places[k++];
+      if (place != DirectionalPages::kNotStored) use(side, direction, place, stored++);
+    }
+  }
+}
+
+/// Calls use(texel, pixel) for every texel of the map at a place.
+template <class Use>
+void forMap(const SideMaps& side, std::int64_t place, const DirectionalPages& pages, Use&& use) {
+  forEachTexel(static_cast<int>(place % pages.width), static_cast<int>(place / pages.width % pages.height), side.width,
+               side.height, pages.width, use);
+}
+
+void readMeans(const std::filesystem::path& path, const ManifestContents& contents, LightMaps& maps) {
+  const DirectionalPages& pages = contents.pages.directional;
+  const LayerFile file(path);
+  std::vector<const std::vector<std::uint32_t>*> layers;
+  for (const std::string& name : pages.layers)
+    layers.push_back(&file.codes(file.layer(name, pages.width, pages.height), dlm_file::kMeanChannel));
+  const std::vector<Vec3d> psis = spreadDirections(maps.directionCount);
+  const float reach = meanReach(maps.directionCount);
+  maps.meanDirections.resize(contents.directionalCount);
+  const std::int64_t pageTexels = std::int64_t{pages.width} * pages.height;
+  forStoredMaps(maps, pages, [&](const SideMaps& side, const SideDirection& d, std::int64_t place, std::size_t) {
+    const std::vector<std::uint32_t>& codes = *layers[static_cast<std::size_t>(place / pageTexels)];
+    const Vec3f psi(psis[d.psi]);
+    forMap(side, place, pages, [&](std::size_t texel, std::size_t pixel) {
+      if (!isMeanCode(codes[pixel])) file.fail("holds a number that is no mean direction");
+      maps.meanDirections[d.first + texel] = unpackMean(codes[pixel], psi, reach);
+    });
+  });
+}
+
 void readDirectional(const std::filesystem::path& path, const ManifestContents& contents, LightMaps& maps) {
   const DirectionalPages& pages = contents.pages.directional;
   const LayerFile file(path);
@@ -159,22 +200,15 @@ void readDirectional(const std::filesystem::path& path, const ManifestContents& 
   }
   maps.directional.resize(contents.directionalCount);
   const std::int64_t pageTexels = std::int64_t{pages.width} * pages.height;
-  std::size_t k = 0, stored = 0;
-  for (const SideMaps& side : maps.sides) {
-    for (const SideDirection& direction : side.directions) {
-      const std::int64_t place = pages.places[k++];
-      if (place == DirectionalPages::kNotStored) continue;
-      const PageReader& page = layers[static_cast<std::size_t>(place / pageTexels)];
-      const float mapScale = pages.mapScales.empty() ? 1.f : pages.mapScales[stored];
-      ++stored;
-      const int x = static_cast<int>(place % pages.width), y = static_cast<int>(place / pages.width % pages.height);
-      forEachTexel(x, y, side.width, side.height, pages.width, [&](std::size_t texel, std::size_t pixel) {
-        Rgb& value = maps.directional[direction.first + texel];
-        value = page.at(pixel, mapScale);
-        if (!isFinite(value)) file.fail("its values times the scale of the manifest are not finite");
-      });
-    }
-  }
+  forStoredMaps(maps, pages, [&](const SideMaps& side, const SideDirection& d, std::int64_t place, std::size_t stored) {
+    const PageReader& page = layers[static_cast<std::size_t>(place / pageTexels)];
+    const float mapScale = pages.mapScales.empty() ? 1.f : pages.mapScales[stored];
+    forMap(side, place, pages, [&](std::size_t texel, std::size_t pixel) {
+      Rgb& value = maps.directional[d.first + texel];
+      value = page.at(pixel, mapScale);
+      if (!isFinite(value)) file.fail("its values times the scale of the manifest are not finite");
+    });
+  });
 }
 
 }  // namespace
@@ -184,7 +218,9 @@ LightMaps readPages(const std::filesystem::path& folder, ManifestContents conten
   LightMaps maps = std::move(contents.maps);
   readIrradiance(folder / dlm_file::kIrradiance, contents, maps);
   betweenFiles();
-  if (!contents.pages.directional.layers.empty()) readDirectional(folder / dlm_file::kDirectional, contents, maps);
+  if (contents.pages.directional.layers.empty()) return maps;
+  readDirectional(folder / dlm_file::kDirectional, contents, maps);
+  if (contents.pages.directional.means) readMeans(folder / dlm_file::kMoments, contents, maps);
   return maps;
 }
 

@@ -1,4 +1,4 @@
-// The texels of light maps out of the layers of irradiance.exr and directional.exr.
+// The texels of light maps out of the layers of irradiance.exr, directional.exr and moments.exr.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace lucarne {
 
-/// Reads both image files and fills all texels. InputError names the file. `betweenFiles` is called between the two.
+/// Reads the image files and fills all texels. InputError names the file. `betweenFiles` is called after the irradiance.
 LightMaps readPages(const std::filesystem::path& folder, ManifestContents contents,
                     const std::function<void()>& betweenFiles);
 

@@ -16,6 +16,8 @@ namespace {
 void checkMaps(const LightMaps& maps) {
   LUCARNE_CHECK_EQ(std::all_of(maps.irradiance.begin(), maps.irradiance.end(), isFinite<float>), true);
   LUCARNE_CHECK_EQ(std::all_of(maps.directional.begin(), maps.directional.end(), isFinite<float>), true);
+  LUCARNE_CHECK_EQ(std::all_of(maps.meanDirections.begin(), maps.meanDirections.end(), isFinite<float>), true);
+  if (maps.hasMeans()) LUCARNE_CHECK_EQ(maps.meanDirections.size(), maps.directional.size());
   LUCARNE_CHECK_EQ(maps.irradiance.size(), maps.relativeError.size());
   LUCARNE_CHECK_EQ(maps.irradiance.size(), maps.standardError.size());
   LUCARNE_CHECK_EQ(maps.irradiance.size(), maps.photons.size());
@@ -60,6 +62,9 @@ PageLayout writeImages(const std::filesystem::path& folder, const LightMaps& map
   if (format.directional == MapFormat::ldr8) pages.directional.mapScales = ldrScales(maps, format.kMax).scales;
   if (!pages.directional.layers.empty())
     writeExr(folder / dlm_file::kDirectional, directionalLayers(maps, pages.directional), format.compression);
+  pages.directional.means = maps.hasMeans() && !pages.directional.layers.empty();
+  if (pages.directional.means)
+    writeExr(folder / dlm_file::kMoments, meanLayers(maps, pages.directional), format.compression);
   return pages;
 }
 
@@ -74,6 +79,7 @@ void writeDlm(const std::filesystem::path& folder, const Scene& scene, const Atl
     const PageLayout pages = writeImages(aside, maps, format);
     std::vector<std::string> files = {dlm_file::kScene, dlm_file::kIrradiance};
     if (!pages.directional.layers.empty()) files.emplace_back(dlm_file::kDirectional);
+    if (pages.directional.means) files.emplace_back(dlm_file::kMoments);
     nlohmann::json manifest = provenance;
     manifest.update(describeMaps(maps, scene.frame, pages));
     manifest["files"] = sealFiles(aside, files);

@@ -1,4 +1,4 @@
-// Writes a .dlm folder: manifest.json, scene.glb, irradiance.exr, directional.exr (docs/dlm-format.md).
+// Writes a .dlm folder: manifest.json, scene.glb, irradiance.exr, directional.exr, moments.exr (docs/dlm-format.md).
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,9 @@
-// Directional maps as layers of directional.exr.
+// Directional maps as layers of directional.exr, their mean directions as layers of moments.exr.
 #include <cstdio>
 
+#include "dlm/direction_set_cells.h"
 #include "dlm/dlm_writer_pages.h"
+#include "dlm/mean_direction.h"
 #include "dlm/texel_codes.h"
 
 namespace lucarne {
@@ -58,16 +60,29 @@ class TexelWriter {
   ExrLayer& page_;
 };
 
-/// A map with its gutter of one texel, which repeats the border.
-void writeMap(const SideMaps& side, const Rgb* texels, int left, int top, const DirectionalPages& pages,
-              TexelWriter& writer) {
+/// Calls put(pixel, texel) for a map and its gutter of one texel, which repeats the border.
+template <class Put>
+void forMap(const SideMaps& side, std::int64_t place, const DirectionalPages& pages, Put&& put) {
+  const int left = static_cast<int>(place % pages.width), top = static_cast<int>(place / pages.width % pages.height);
   for (int y = std::max(-1, -top); y <= std::min(side.height, pages.height - 1 - top); ++y) {
     for (int x = std::max(-1, -left); x <= std::min(side.width, pages.width - 1 - left); ++x) {
       const int tx = std::clamp(x, 0, side.width - 1), ty = std::clamp(y, 0, side.height - 1);
       const auto pixel = static_cast<std::size_t>(top + y) * static_cast<std::size_t>(pages.width) +
                          static_cast<std::size_t>(left + x);
-      writer.put(pixel, texels[static_cast<std::size_t>(ty) * static_cast<std::size_t>(side.width) +
-                               static_cast<std::size_t>(tx)]);
+      put(pixel, static_cast<std::size_t>(ty) * static_cast<std::size_t>(side.width) + static_cast<std::size_t>(tx));
+    }
+  }
+}
+
+/// Calls use(side, direction, place, layer) for every stored map, in order.
+template <class Use>
+void forStoredMaps(const LightMaps& maps, const DirectionalPages& pages, Use&& use) {
+  std::size_t k = 0;
+  for (const SideMaps& side : maps.sides) {
+    for (const SideDirection& direction : side.directions) {
+      const std::int64_t place = pages.places[k++];
+      if (place == DirectionalPages::kNotStored) continue;
+      use(side, direction, place, static_cast<std::size_t>(place / (std::int64_t{pages.width} * pages.height)));
     }
   }
 }
@@ -78,18 +93,37 @@ std::vector<ExrLayer> directionalLayers(const LightMaps& maps, const Directional
   std::vector<ExrLayer> layers;
   for (std::size_t l = 0; l < pages.layers.size(); ++l)
     layers.push_back(emptyPage(pages.layers[l], pages.neutral[l], pages));
-  std::size_t k = 0, stored = 0;
-  for (const SideMaps& side : maps.sides) {
-    for (const SideDirection& direction : side.directions) {
-      const std::int64_t place = pages.places[k++];
-      if (place == DirectionalPages::kNotStored) continue;
-      ExrLayer& page = layers[static_cast<std::size_t>(place / (std::int64_t{pages.width} * pages.height))];
-      TexelWriter writer(pages, page, pages.mapScales.empty() ? 1.f : pages.mapScales[stored]);
-      ++stored;
-      writeMap(side, maps.directional.data() + direction.first, static_cast<int>(place % pages.width),
-               static_cast<int>(place / pages.width % pages.height), pages, writer);
-    }
+  std::size_t stored = 0;
+  forStoredMaps(maps, pages, [&](const SideMaps& side, const SideDirection& d, std::int64_t place, std::size_t layer) {
+    TexelWriter writer(pages, layers[layer], pages.mapScales.empty() ? 1.f : pages.mapScales[stored++]);
+    const Rgb* const texels = maps.directional.data() + d.first;
+    forMap(side, place, pages, [&](std::size_t pixel, std::size_t texel) { writer.put(pixel, texels[texel]); });
+  });
+  return layers;
+}
+
+std::vector<ExrLayer> meanLayers(const LightMaps& maps, const DirectionalPages& pages) {
+  std::vector<ExrLayer> layers;
+  if (!maps.hasMeans()) return layers;
+  const auto pixels = static_cast<std::size_t>(pages.width) * static_cast<std::size_t>(pages.height);
+  for (const std::string& name : pages.layers) {
+    ExrLayer page;
+    page.name = name;
+    page.width = pages.width;
+    page.height = pages.height;
+    page.channels.push_back({dlm_file::kMeanChannel, ChannelType::uint32, {}, std::vector<std::uint32_t>(pixels)});
+    page.attributes["units"] = "mean direction, coded: see the manifest";
+    layers.push_back(std::move(page));
   }
+  const std::vector<Vec3d> psis = spreadDirections(maps.directionCount);
+  const float reach = meanReach(maps.directionCount);
+  forStoredMaps(maps, pages, [&](const SideMaps& side, const SideDirection& d, std::int64_t place, std::size_t layer) {
+    const Vec3f* const texels = maps.meanDirections.data() + d.first;
+    std::vector<std::uint32_t>& codes = layers[layer].channels[0].uints;
+    forMap(side, place, pages, [&](std::size_t pixel, std::size_t texel) {
+      codes[pixel] = packMean(texels[texel], Vec3f(psis[d.psi]), reach);
+    });
+  });
   return layers;
 }
 

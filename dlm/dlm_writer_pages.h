@@ -1,4 +1,4 @@
-// Light maps laid out as the layers of irradiance.exr and directional.exr.
+// Light maps laid out as the layers of irradiance.exr, directional.exr and moments.exr.
 #pragma once
 
 #include <vector>
@@ -19,6 +19,9 @@ DirectionalPages packDirectional(const LightMaps& maps, bool neutralApart);
 
 /// In pages.format, divided by its scales.
 std::vector<ExrLayer> directionalLayers(const LightMaps& maps, const DirectionalPages& pages);
+
+/// Mean directions on pages of the same places and names, in codes of packMean(). Empty where there are none.
+std::vector<ExrLayer> meanLayers(const LightMaps& maps, const DirectionalPages& pages);
 
 /// The power of two that brings the largest value into [2^14, 2^15) when divided by it: half's whole range below is
 /// then there for the small ones. 1 when all is zero.

@@ -88,11 +88,17 @@ void closeGaps(LightMaps& maps) {
       const auto from = maps.directional.begin() + static_cast<std::ptrdiff_t>(d.first);
       std::copy(from, from + static_cast<std::ptrdiff_t>(side.texelCount()),
                 maps.directional.begin() + static_cast<std::ptrdiff_t>(next));
+      if (maps.hasMeans()) {
+        const auto mean = maps.meanDirections.begin() + static_cast<std::ptrdiff_t>(d.first);
+        std::copy(mean, mean + static_cast<std::ptrdiff_t>(side.texelCount()),
+                  maps.meanDirections.begin() + static_cast<std::ptrdiff_t>(next));
+      }
       d.first = next;
       next += side.texelCount();
     }
   }
   maps.directional.resize(next);
+  if (maps.hasMeans()) maps.meanDirections.resize(next);
 }
 
 }  // namespace

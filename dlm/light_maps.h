@@ -55,6 +55,8 @@ struct LightMaps {
   std::vector<float> relativeError;   // the same over E; 0 where dark
   std::vector<float> photons;         // photons that fell into the texel
   std::vector<Rgb> directional;       // lx, B(s,ψ): [direction.first + y·width + x]
+  std::vector<Vec3f> meanDirections;  // of the light in each texel of directional (mean_direction.h); empty: not known
+  bool hasMeans() const { return !meanDirections.empty(); }
 };
 
 }  // namespace lucarne

@@ -10,8 +10,17 @@ namespace lucarne {
 float cellSharpness(int directionCount) { return 1.2f * static_cast<float>(directionCount); }
 
 float lobeSharpness(float alpha, int directionCount) {
-  const float lobe = phongFromAlpha(alpha) + 1.f, cell = cellSharpness(directionCount);
+  const float lobe = coatSharpness(alpha), cell = cellSharpness(directionCount);
   return lobe * cell / (lobe + cell);
+}
+
+float coatSharpness(float alpha) { return phongFromAlpha(alpha) + 1.f; }
+
+float meanSharpness(float length, int directionCount) {
+  constexpr float kLeast = 1e-4f;
+  const float r = std::clamp(length, kLeast, 1.f), square = r * r;
+  const float spread = (1 - square) / (r * (3 - square));  // 1/κ
+  return 1 / (1 / (kMeanBound * cellSharpness(directionCount)) + (1 - 1 / kMeanBound) * spread);
 }
 
 std::vector<WidenedHighlight> widenedHighlights(const Scene& scene, const LightMaps& maps) {
@@ -20,13 +29,15 @@ std::vector<WidenedHighlight> widenedHighlights(const Scene& scene, const LightM
   for (const SideMaps& side : maps.sides) {
     if (side.lit && !side.directions.empty()) hasDirections[maps.charts[side.chart].material] = 1;
   }
+  const float cell = cellSharpness(maps.directionCount) * (maps.hasMeans() ? kMeanBound : 1.f);
   std::vector<WidenedHighlight> widened;
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
     if (hasDirections[m] == 0) continue;
     const Material& material = scene.materials[m];
     const float alpha = std::max(makeBsdf(material, factorsOf(material)).alpha, kMinAlpha);
-    if (phongFromAlpha(alpha) + 1.f <= cellSharpness(maps.directionCount)) continue;
-    const float shown = lobeSharpness(alpha, maps.directionCount) - 1.f;
+    const float lobe = coatSharpness(alpha);
+    if (lobe <= cell) continue;
+    const float shown = lobe * cell / (lobe + cell) - 1.f;
     widened.push_back({m, static_cast<double>(phongFromAlpha(alpha)), static_cast<double>(std::max(0.f, shown)),
                        static_cast<bool>(material.metallicRoughnessTexture)});
   }

@@ -27,12 +27,30 @@ namespace lucarne {
 float cellSharpness(int directionCount);
 /// λ for GGX α and |Ω|.
 float lobeSharpness(float alpha, int directionCount);
+/// λ_lobe.
+float coatSharpness(float alpha);
+
+// Where the mean direction m of a cell's light is known (mean_direction.h), the light itself takes the cell's place: a
+// Gaussian around m/|m|, whose sharpness κ follows from |m|. On the sphere (Banerjee, Dhillon, Ghosh and Sra, "Clustering on
+// the unit hypersphere using von Mises-Fisher distributions", 2005):
+//
+//   κ = |m| (3 − |m|²)/(1 − |m|²)
+//
+// Light of several lamps in one cell has a mean that lies between them, and a kernel's few photons look like a point more
+// often than they are one, so that what is shown is never sharper than kMeanBound cells:
+//
+//   1/κ_shown = 1/(kMeanBound·λ_cell) + (1 − 1/kMeanBound)/κ
+//
+// which for light that fills the cell is about λ_cell again.
+inline constexpr float kMeanBound = 4;
+/// κ_shown of light with |m| = `length`.
+float meanSharpness(float length, int directionCount);
 
 /// A material whose lobe is narrower than a cell: it is shown as wide as lobe and cell together, its energy kept.
 struct WidenedHighlight {
   std::uint32_t material = 0;
   double exponent = 0;       // reflection-Phong, as the material asks
-  double shownExponent = 0;  // as the player shows it
+  double shownExponent = 0;  // as the player shows it, where there are mean directions that of light from a point
   bool textured = false;     // the roughness is that times a texture: narrower still in places
 };
 

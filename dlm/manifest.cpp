@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "dlm/direction_set_cells.h"
+#include "dlm/mean_direction.h"
 
 namespace lucarne {
 
@@ -63,7 +64,7 @@ json describeSides(const std::vector<SideMaps>& sides, const std::vector<std::in
           {"place", places}};
 }
 
-json describeDirectional(const DirectionalPages& pages) {
+json describeDirectional(const DirectionalPages& pages, int directionCount) {
   if (pages.layers.empty()) return nullptr;
   json result = {{"file", dlm_file::kDirectional},
                  {"size", {pages.width, pages.height}},
@@ -71,6 +72,8 @@ json describeDirectional(const DirectionalPages& pages) {
                  {"scale", pages.scale},
                  {"layers", pages.layers}};
   if (pages.format == MapFormat::ldr8) result["map_scales"] = pages.mapScales;
+  if (pages.means)
+    result["means"] = {{"file", dlm_file::kMoments}, {"reach", static_cast<double>(meanReach(directionCount))}};
   return result;
 }
 
@@ -91,7 +94,7 @@ nlohmann::json describeMaps(const LightMaps& maps, const LocalFrame& frame, cons
            {{"file", dlm_file::kIrradiance},
             {"size", {maps.atlasWidth, maps.atlasHeight}},
             {"layers", pages.irradianceLayers}}},
-          {"directional", describeDirectional(pages.directional)}};
+          {"directional", describeDirectional(pages.directional, maps.directionCount)}};
 }
 
 }  // namespace lucarne

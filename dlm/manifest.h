@@ -19,6 +19,8 @@ inline constexpr const char* kManifest = "manifest.json";
 inline constexpr const char* kScene = "scene.glb";
 inline constexpr const char* kIrradiance = "irradiance.exr";
 inline constexpr const char* kDirectional = "directional.exr";
+inline constexpr const char* kMoments = "moments.exr";
+inline constexpr const char* kMeanChannel = "MEAN";
 inline constexpr const char* kStatistics = ".statistics";  // after "front" or "back"
 }  // namespace dlm_file
 
@@ -33,6 +35,7 @@ struct DirectionalPages {
   MapFormat format = MapFormat::half;
   std::vector<bool> neutral;  // by layer: one channel, Y, of maps without colour. A reader sees it by the channels
   std::vector<float> mapScales;  // of ldr8: of every stored map, in order; see texel_codes.h
+  bool means = false;  // moments.exr has the mean directions, at the same places
 };
 
 struct PageLayout {

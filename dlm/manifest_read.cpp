@@ -5,6 +5,7 @@
 #include "dlm/direction_set_cells.h"
 #include "dlm/manifest.h"
 #include "dlm/manifest_cover.h"
+#include "dlm/mean_direction.h"
 #include "tracer/scene/gltf_json.h"
 
 namespace lucarne {
@@ -220,6 +221,17 @@ std::vector<float> mapScales(const Json& directional, const Place& place) {
   return scales;
 }
 
+/// Manifests of before there were mean directions, or of maps without, have none.
+bool readMeans(const Json& directional, int directionCount, const Place& place) {
+  const Json* means = findMember(directional, "means");
+  if (means == nullptr || means->is_null()) return false;
+  const Place here = place.in("means");
+  if (!means->is_object()) here.fail("is not an object");
+  const double reach = numberOf(*means, "reach", 0, here), expected = static_cast<double>(meanReach(directionCount));
+  if (!(std::abs(reach - expected) <= 1e-6 * expected)) here.in("reach").fail("is not " + std::to_string(expected));
+  return true;
+}
+
 void readPages(const Json& manifest, const Place& file, ManifestContents& contents) {
   const Json& irradiance = section(manifest, "irradiance", file);
   const auto size = integers(irradiance, "size", 2, 0, kLargestPage, file.in("irradiance"));
@@ -240,6 +252,7 @@ void readPages(const Json& manifest, const Place& file, ManifestContents& conten
   pages.scale = numberOf(directional, "scale", 1, place);
   pages.format = formatOf(directional, place);
   if (pages.format == MapFormat::ldr8) pages.mapScales = mapScales(directional, place);
+  pages.means = readMeans(directional, contents.maps.directionCount, place);
   int exponent = 0;
   if (!(pages.scale > 0) || std::frexp(pages.scale, &exponent) != 0.5) place.in("scale").fail("is not a power of two");
   if (static_cast<std::uint64_t>(pageSize[0] * pageSize[1]) >

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "dlm/direct_gather.h"
+#include "dlm/direction_set_cells.h"
 #include "dlm/kernel_levels.h"
+#include "dlm/resolve_means.h"
 #include "dlm/side_errors.h"
 
 namespace lucarne {
@@ -82,6 +84,7 @@ void planMaps(const ResolveInput& in, LightMaps& maps) {
   maps.relativeError.resize(texels);
   maps.photons.resize(texels);
   maps.directional.resize(entries);
+  if (in.tallyLayout.momentEntries > 0) maps.meanDirections.resize(entries);
 }
 
 /// Irradiance of one set, lx; its maps by direction are added to `maps`.
@@ -124,6 +127,7 @@ struct ResolveRun {
   LightMaps& maps;
   std::vector<SideErrors> errors;   // by side
   std::vector<KernelBias> biases;   // by side
+  std::vector<Vec3d> directions = {};  // Ω; empty where there are no moments
   const Kernel& usual() const { return kernels[std::min<std::size_t>(1, kernels.size() - 1)]; }
 };
 
@@ -174,6 +178,7 @@ void resolveSide(ResolveRun& run, std::size_t index) {
     for (std::size_t t = 0; t < irradiance.size(); ++t) irradiance[t] += direct[t];
   }
   for (std::size_t t = 0; t < irradiance.size(); ++t) maps.irradiance[out.firstTexel + t] = Rgb(irradiance[t]);
+  if (maps.hasMeans()) resolveMeans(s, run.directions, out, maps);
   const auto statistics = statisticsOf(in.tallies, side);
   for (std::size_t t = 0; t < irradiance.size(); ++t)
     maps.photons[out.firstTexel + t] = static_cast<float>(statistics[kStatisticsChannels * t + kCount]);
@@ -209,6 +214,7 @@ LightMaps resolve(const ResolveInput& in, const KernelOptions& options, KernelBi
   planMaps(in, maps);
   ResolveRun run{in, kernelLevels(options), scalesOf(in), maps, std::vector<SideErrors>(maps.sides.size()),
                  std::vector<KernelBias>(maps.sides.size())};
+  if (maps.hasMeans()) run.directions = spreadDirections(in.directionCount);
   tbb::parallel_for(std::size_t{0}, maps.sides.size(), [&](std::size_t s) { resolveSide(run, s); });
   fillErrors(run.errors, maps);
   for (const KernelBias& b : run.biases)

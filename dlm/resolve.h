@@ -8,6 +8,9 @@
 // the others copy the nearest that has a value. The physical scale enters here, once, in double: one tally unit is
 // 2^-24 · emitted flux / photons. Where direct light was gathered (direct_gather.h), its set has tally(t') = area(t') ·
 // mean over its samples, and the two sets are added; so are the variances (texel_error.h).
+//
+// Moments go the same way with the same weights, so that the mean direction of a texel is that of the light which its
+// value is made of.
 #pragma once
 
 #include "dlm/kernel.h"

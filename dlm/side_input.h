@@ -38,6 +38,12 @@ inline std::span<const std::int64_t> mapUnits(const Tallies& set, const TallySid
                              side.texelCount() * kLightChannels);
 }
 
+/// [texel][x, y, z] of the moments of map `rank`.
+inline std::span<const std::int64_t> momentUnits(const Tallies& set, const TallySide& side, std::uint64_t rank) {
+  return set.moments().subspan((side.firstMoment + rank * side.texelCount()) * kMomentChannels,
+                               side.texelCount() * kMomentChannels);
+}
+
 /// [texel][count, m2, odd].
 inline std::span<const std::int64_t> statisticsOf(const Tallies& set, const TallySide& side) {
   return set.statistics().subspan(side.firstTexel * kStatisticsChannels, side.texelCount() * kStatisticsChannels);

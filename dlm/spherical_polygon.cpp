@@ -65,6 +65,21 @@ Vec3d moment(std::span<const Vec3d> polygon) {
   return sum;
 }
 
+// The divergence theorem for x_j e_i in the same cone: δij Ω/3 = ∫ ωi ωj dω − Σ ni ∫ xj dA over the flat sides, n the
+// inward normals as above. Over a sector ∫ x dA = ⅓ ∫ u ds along its edge, and along an arc from a to b of angle θ
+// ∫ u ds = (a + b) sin θ/(1 + cos θ). With sin θ n = a × b:
+//   ∫ ω (ω·n₀) dω = ⅓ (Ω n₀ + Σ (a × b) (a + b)·n₀ / (1 + a·b))
+Vec3d momentAlong(std::span<const Vec3d> polygon, Vec3d n) {
+  if (polygon.size() < 3) return {};
+  Vec3d sum = n * solidAngle(polygon);
+  Vec3d a = polygon.back();
+  for (const Vec3d& b : polygon) {
+    sum += cross(a, b - a) * (dot(a + b, n) / (1 + dot(a, b)));
+    a = b;
+  }
+  return sum / 3;
+}
+
 SphericalIntegral integrate(std::span<const Vec3d> polygon) { return {solidAngle(polygon), moment(polygon)}; }
 
 }  // namespace lucarne

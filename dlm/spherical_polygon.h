@@ -40,6 +40,8 @@ SphericalPolygon clip(std::span<const Vec3d> polygon, Vec3d normal);
 double solidAngle(std::span<const Vec3d> polygon);
 Vec3d moment(std::span<const Vec3d> polygon);
 SphericalIntegral integrate(std::span<const Vec3d> polygon);
+/// ∫ ω (ω·n) dω over the polygon.
+Vec3d momentAlong(std::span<const Vec3d> polygon, Vec3d n);
 
 /// The angle between two vectors, 0 … π,, to about 1e-15; the vectors need not be unit.
 double angleBetween(Vec3d a, Vec3d b);

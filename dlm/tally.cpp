@@ -77,14 +77,14 @@ std::vector<Vec3f> normalsOf(const Scene& scene, const Chart& chart, bool back) 
 }  // namespace
 
 TallyLayout planTallies(const Scene& scene, const ChartSet& charts, const TexelLayout& layout, const DirectionSet& directions,
-                        bool keepAllDirections) {
+                        const TallyWishes& wishes) {
   TallyLayout plan;
   MemberSets sets(directions, plan);
   for (std::uint32_t c = 0; c < charts.charts.size(); ++c) {
     const Chart& chart = charts.charts[c];
     const Material& material = scene.materials[chart.material];
     const Need need = needOf(material);
-    const bool directional = keepAllDirections || need == Need::directions;
+    const bool directional = wishes.keepAllDirections || need == Need::directions;
     // What is inside a volume shows through its front; its back has no maps.
     const bool hasBack = material.doubleSided && !(material.transmits() && material.solid);
     plan.frontSide.push_back(kNone);
@@ -93,10 +93,11 @@ TallyLayout planTallies(const Scene& scene, const ChartSet& charts, const TexelL
       if (need == Need::nothing || (back && !hasBack)) continue;
       TallySide side{c, back, layout.charts[c].width, layout.charts[c].height,
                      directional ? sets.of(normalsOf(scene, chart, back)) : MemberSets::kIrradianceOnly, plan.lightEntries,
-                     plan.texels};
+                     plan.texels, plan.momentEntries};
       (back ? plan.backSide : plan.frontSide)[c] = static_cast<std::uint32_t>(plan.sides.size());
       plan.lightEntries += side.texelCount() * plan.memberSets[side.memberSet].mapCount();
       plan.texels += side.texelCount();
+      if (wishes.moments) plan.momentEntries += side.texelCount() * plan.memberSets[side.memberSet].members.size();
       plan.sides.push_back(side);
     }
   }
@@ -106,8 +107,10 @@ TallyLayout planTallies(const Scene& scene, const ChartSet& charts, const TexelL
 void Tallies::add(const Tallies& other) {
   LUCARNE_CHECK_EQ(light().size(), other.light().size());
   LUCARNE_CHECK_EQ(statistics().size(), other.statistics().size());
+  LUCARNE_CHECK_EQ(moments().size(), other.moments().size());
   for (std::size_t i = 0; i < light().size(); ++i) light()[i] += other.light()[i];
   for (std::size_t i = 0; i < statistics().size(); ++i) statistics()[i] += other.statistics()[i];
+  for (std::size_t i = 0; i < moments().size(); ++i) moments()[i] += other.moments()[i];
   if (other.direct_ == nullptr) return;
   LUCARNE_CHECK_EQ(direct_ != nullptr, true);
   direct_->add(*other.direct_);
@@ -116,6 +119,7 @@ void Tallies::add(const Tallies& other) {
 void Tallies::clear() {
   std::fill(light().begin(), light().end(), 0);
   std::fill(statistics().begin(), statistics().end(), 0);
+  std::fill(moments().begin(), moments().end(), 0);
   if (direct_ != nullptr) direct_->clear();
 }
 
@@ -123,6 +127,7 @@ void Tallies::hashInto(Hasher& hasher) const {
   static_assert(std::endian::native == std::endian::little, "tallies are hashed as little-endian bytes");
   hasher.add(std::as_bytes(light()));
   hasher.add(std::as_bytes(statistics()));
+  hasher.add(std::as_bytes(moments()));
   if (direct_ != nullptr) direct_->hashInto(hasher);
 }
 

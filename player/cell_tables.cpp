@@ -21,6 +21,13 @@ LobeCell lobeCell(const DirectionSet& set, int psi, Vec3d n) {
   return {Vec3f(direction), static_cast<float>(cell.cosIntegral)};
 }
 
+MeanCell meanCell(const DirectionSet& set, int psi, Vec3d n) {
+  constexpr double kLeast = 1e-12;  // sr
+  const LobeCell cell = lobeCell(set, psi, n);
+  if (!(static_cast<double>(cell.cosIntegral) > kLeast)) return cell;
+  return {Vec3f(set.cosineMoment(psi, n) / static_cast<double>(cell.cosIntegral)), cell.cosIntegral};
+}
+
 Vec3d octahedralNormal(Vec2d p) {
   Vec3d n{p.x, p.y, 1 - std::abs(p.x) - std::abs(p.y)};
   if (n.z < 0) {
@@ -36,22 +43,22 @@ Vec2d octahedralPoint(Vec3d n) {
   return {(1 - std::abs(p.y)) * (p.x < 0 ? -1 : 1), (1 - std::abs(p.x)) * (p.y < 0 ? -1 : 1)};
 }
 
-CellTable::CellTable(const DirectionSet& set, int maxLayers)
+CellTable::CellTable(const DirectionSet& set, int maxLayers, CellKind kind)
     : nodes_(nodesFor(set.count())),
       layers_(std::min(set.count(), maxLayers)),
       tiles_((set.count() + layers_ - 1) / layers_) {
   const auto width = static_cast<std::size_t>(nodes_ * tiles_), height = static_cast<std::size_t>(nodes_);
   texels_.resize(width * height * static_cast<std::size_t>(layers_));
   tbb::parallel_for(0, nodes_, [&](int y) {
-    for (int x = 0; x < nodes_; ++x) fillNode(set, x, y);
+    for (int x = 0; x < nodes_; ++x) fillNode(set, kind, x, y);
   });
 }
 
-void CellTable::fillNode(const DirectionSet& set, int x, int y) {
+void CellTable::fillNode(const DirectionSet& set, CellKind kind, int x, int y) {
   const double step = 2.0 / (nodes_ - 1);
   const Vec3d n = octahedralNormal({x * step - 1, y * step - 1});
   for (int psi = 0; psi < set.count(); ++psi) {
-    const LobeCell cell = lobeCell(set, psi, n);
+    const LobeCell cell = kind == CellKind::mean ? meanCell(set, psi, n) : lobeCell(set, psi, n);
     texels_[texelIndex(psi, x, y)] = {cell.direction.x, cell.direction.y, cell.direction.z, cell.cosIntegral};
   }
 }

@@ -11,18 +11,22 @@ namespace lucarne {
 
 /// The cell of ψ clipped by the horizon of unit normal `n`. Nothing left: ψ itself with C = 0.
 LobeCell lobeCell(const DirectionSet& set, int psi, Vec3d n);
+/// The same with the mean direction of constant light in place of the unit direction: m̄ of lobe.h. Nothing left: ψ.
+MeanCell meanCell(const DirectionSet& set, int psi, Vec3d n);
+
+enum class CellKind { direction, mean };
 
 /// One texel of the table as uploaded.
 struct LobeTexel {
   float x, y, z, c;
 };
 
-/// lobeCell() over an octahedral grid of normals, one square a ψ; nodes at texel centres, first and last on the edges
+/// lobeCell(), or meanCell(), over an octahedral grid of normals, one square a ψ; nodes at texel centres, first and last on the edges
 /// of the octahedral square, an odd count so that the six axes are nodes. With more ψ than layers the squares go on to
 /// the right: ψ lies in layer ψ mod layers, tile ψ / layers.
 class CellTable {
  public:
-  CellTable(const DirectionSet& set, int maxLayers);
+  CellTable(const DirectionSet& set, int maxLayers, CellKind kind = CellKind::direction);
 
   int nodes() const { return nodes_; }
   int layers() const { return layers_; }
@@ -34,7 +38,7 @@ class CellTable {
   LobeCell lookUp(int psi, Vec3f n) const;
 
  private:
-  void fillNode(const DirectionSet& set, int x, int y);
+  void fillNode(const DirectionSet& set, CellKind kind, int x, int y);
   std::size_t texelIndex(int psi, int x, int y) const;
 
   int nodes_ = 3, layers_ = 1, tiles_ = 1;

@@ -33,6 +33,8 @@ ProgramConstants constantsOf(const GpuMaps& maps, float outputScale, LobeKind lo
   c.cellTableLayers = maps.cellTableLayers;
   c.lobe = lobe;
   c.capCosine = capCosine(directionCount);
+  c.means = maps.hasMeans;
+  c.meanReach = maps.meanReach;
   return c;
 }
 
@@ -112,13 +114,15 @@ void FrameRenderer::prepass(const DrawContext& c, const FrameTarget& target, boo
 void FrameRenderer::bindCommon(const FrameTarget& target) {
   glBindVertexArray(scene_.layout());
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, camera_.get());
-  const GLuint buffers[] = {maps_.sides.get(), scene_.materials.get(), maps_.cells.get(), maps_.memberBits.get()};
-  for (GLuint i = 0; i < 4; ++i) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
+  const GLuint buffers[] = {maps_.sides.get(), scene_.materials.get(), maps_.cells.get(), maps_.memberBits.get(),
+                            maps_.directions.get()};
+  for (GLuint i = 0; i < 5; ++i) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
   const GLuint textures[] = {maps_.directional.get(), maps_.irradiance.get(), maps_.cellTable.get(),
                              scene_.specularTable.get()};
   for (GLuint i = 0; i < 4; ++i) glBindTextureUnit(i, textures[i]);
   glBindTextureUnit(8, target.owner.get());
   glBindTextureUnit(9, maps_.statistics.get());
+  glBindTextureUnit(12, maps_.means.get());
 }
 
 MapRenderer& FrameRenderer::rendererFor(const View& view, RendererKind renderer) {

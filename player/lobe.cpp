@@ -11,6 +11,13 @@ namespace lucarne {
 
 float lobeWeight(float sharpness, float cosine) { return std::exp(std::max(sharpness * (cosine - 1.f), -60.f)); }
 
+float meanWeight(float lobe, Vec3f r, Vec3f mean, int directionCount) {
+  constexpr float kLeast = 1e-4f;
+  const float length = std::max(std::sqrt(dot(mean, mean)), kLeast), light = meanSharpness(length, directionCount);
+  const float sharpness = lobe * light / (lobe + light);
+  return sharpness / (1 - std::exp(-2 * sharpness)) * lobeWeight(sharpness, dot(r, mean) / length);
+}
+
 float capCosine(int directionCount) { return 1.f - 2.f / static_cast<float>(directionCount); }
 
 float phongDensity(float exponent, float cosine) {
@@ -67,12 +74,40 @@ Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell
   return constant > 0 ? light / constant : E * std::numbers::inv_pi_v<float>;
 }
 
-Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const LobeCell> cells,
-                      std::span<const Rgb> values, Rgb E) {
+Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const MeanCell> cells, std::span<const Rgb> values,
+                     std::span<const Vec3f> means, Rgb E) {
+  LUCARNE_CHECK_EQ(cells.size(), values.size());
+  LUCARNE_CHECK_EQ(cells.size(), means.size());
+  const float lobe = coatSharpness(alpha);
+  const Vec3f r = mirrorDirection(view.normal, view.toEye);
+  Rgb light{};
+  float constant = 0;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    light += values[k] * meanWeight(lobe, r, means[k], view.directionCount);
+    constant += cells[k].cosIntegral * meanWeight(lobe, r, cells[k].direction, view.directionCount);
+  }
+  return constant > 0 ? light / constant : E * std::numbers::inv_pi_v<float>;
+}
+
+namespace {
+
+Rgb composed(const LobeView& view, const Bsdf& bsdf, Rgb E, Rgb mirrored) {
   const float cosine = std::clamp(dot(view.normal, view.toEye), 0.f, 1.f);
   const CoatAlbedo coat = Coat(bsdf).albedo(cosine);
   const Rgb diffuse = (bsdf.diffuse * coat.passed() + coat.more()) * std::numbers::inv_pi_v<float>;
-  return diffuse * E + coat.once * mirroredRadiance(view, bsdf.alpha, cells, values, E);
+  return diffuse * E + coat.once * mirrored;
+}
+
+}  // namespace
+
+Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const LobeCell> cells,
+                      std::span<const Rgb> values, Rgb E) {
+  return composed(view, bsdf, E, mirroredRadiance(view, bsdf.alpha, cells, values, E));
+}
+
+Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const MeanCell> cells,
+                      std::span<const Rgb> values, std::span<const Vec3f> means, Rgb E) {
+  return composed(view, bsdf, E, mirroredRadiance(view, bsdf.alpha, cells, values, means, E));
 }
 
 }  // namespace lucarne

@@ -20,6 +20,14 @@
 //
 // A lobe narrower than a cell is so widened to the cell, with its energy kept by the division.
 //
+// Where the maps have mean directions m_ψ (dlm/mean_direction.h), the light of a cell is a Gaussian of its own, and so is that
+// which constant radiance would have brought, with the mean m̄_ψ = ∫_cell ω cos dω / C_ψ. Each is convolved with the lobe:
+//
+//   (Σ B_ψ g(m_ψ)) / (Σ C_ψ g(m̄_ψ)),   g(m) = λ/(1 − exp(−2λ))·exp(λ(r·m/|m| − 1)),   1/λ = 1/λ_lobe + 1/κ_shown(|m|)
+//
+// g times 1/2π is a density over directions, so that sharp and wide light count by their energy. Constant light has
+// m_ψ = m̄_ψ and stays exactly constant, whatever κ_shown makes of their lengths.
+//
 // Two other ways are there to be compared with it. Both take the lobe for a density over directions,
 // D = (n + 1)/2π·cosⁿ, and the light of a cell for a lamp of perpendicular irradiance B_ψ/(n·d_ψ), and do not
 // normalise:
@@ -47,8 +55,13 @@ struct LobeCell {
   float cosIntegral = 0;  // C, sr
 };
 
+/// The same as lobeCell() of cell_tables.h gives it, but with m̄ in place of the direction.
+using MeanCell = LobeCell;
+
 /// exp(λ(cos − 1)), bounded below so that weights that are all far from the mirror direction become equal, not zero.
 float lobeWeight(float sharpness, float cosine);
+/// g of a mean direction for a lobe of sharpness λ_lobe around unit `r`.
+float meanWeight(float lobe, Vec3f r, Vec3f mean, int directionCount);
 /// Cosine of the radius of a cap that is one |Ω|-th of the sphere.
 float capCosine(int directionCount);
 /// D of an exponent at, or averaged over a cap around, a direction whose cosine with r is `cosine`; per sr.
@@ -68,8 +81,13 @@ struct LobeView {
 /// order.
 Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell> cells, std::span<const Rgb> values,
                      Rgb E);
+/// (Σ B g(m)) / (Σ C g(m̄)), cd/m², by `cell` whatever the view says; `means`: m of the cells, in the same order.
+Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const MeanCell> cells, std::span<const Rgb> values,
+                     std::span<const Vec3f> means, Rgb E);
 /// Lo without emission, cd/m².
 Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const LobeCell> cells,
                       std::span<const Rgb> values, Rgb E);
+Rgb reflectedRadiance(const LobeView& view, const Bsdf& bsdf, std::span<const MeanCell> cells,
+                      std::span<const Rgb> values, std::span<const Vec3f> means, Rgb E);
 
 }  // namespace lucarne

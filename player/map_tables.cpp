@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "dlm/mean_direction.h"
 
 namespace lucarne {
 namespace {
@@ -28,18 +29,21 @@ int storedCount(const SideMaps& side) {
 /// Cells of one horizon after another; axis-aligned scenes have few different ones.
 class HorizonCache {
  public:
-  explicit HorizonCache(const DirectionSet& set) : set_(set) {}
+  HorizonCache(const DirectionSet& set, bool means) : set_(set), means_(means) {}
 
   LobeCell cell(Vec3f n, int psi) {
     std::vector<LobeCell>& cells = byNormal_[{n.x, n.y, n.z}];
     if (cells.empty()) {
-      for (int i = 0; i < set_.count(); ++i) cells.push_back(lobeCell(set_, i, normalize(Vec3d(n))));
+      const Vec3d horizon = normalize(Vec3d(n));
+      for (int i = 0; i < set_.count(); ++i)
+        cells.push_back(means_ ? meanCell(set_, i, horizon) : lobeCell(set_, i, horizon));
     }
     return cells[static_cast<std::size_t>(psi)];
   }
 
  private:
   const DirectionSet& set_;
+  bool means_;
   std::map<std::tuple<float, float, float>, std::vector<LobeCell>> byNormal_;
 };
 
@@ -116,7 +120,8 @@ void markMembers(const SideMaps& side, GpuMemberBits* words, int wordCount) {
 
 std::uint64_t mapTextureBytes(const LightMaps& maps, LightMapFormat format, const TextureLimits& limits) {
   const auto one = [](const SideMaps&) { return 1; };
-  return packSides(maps, limits.layers, limits, storedCount).texels() * bytesPerTexel(format) +
+  const std::uint64_t mapTexel = bytesPerTexel(format) + (maps.hasMeans() ? kMeanBytes : 0);
+  return packSides(maps, limits.layers, limits, storedCount).texels() * mapTexel +
          packSides(maps, limits.layers, limits, one).texels() * kEvenBytesPerTexel;
 }
 
@@ -131,7 +136,8 @@ MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const Textu
   t.memberBits.resize((maps.sides.size() + 1) * static_cast<std::size_t>(t.wordsPerSide));
   t.sides.emplace_back();
 
-  HorizonCache horizons(set);
+  if (maps.hasMeans()) LUCARNE_CHECK_EQ(maps.meanDirections.size(), maps.directional.size());
+  HorizonCache horizons(set, maps.hasMeans());
   for (std::size_t i = 0; i < maps.sides.size(); ++i) {
     const SideMaps& side = maps.sides[i];
     const MapChart& chart = maps.charts[side.chart];
@@ -140,6 +146,10 @@ MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const Textu
     t.sides.push_back(record);
     if (!side.lit) continue;
     for (const std::uint16_t psi : orderedMembers(side)) {
+      if (maps.hasMeans()) {
+        const Vec3f d(set.direction(psi));
+        t.directions.push_back({d.x, d.y, d.z, 0});
+      }
       if (needsCellTable(chart)) {
         t.cells.push_back({0, 0, 0, static_cast<float>(psi)});
       } else {

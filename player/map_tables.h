@@ -15,8 +15,10 @@ namespace lucarne {
 
 struct MapTables {
   std::vector<GpuSide> sides;  // [0] absorbs
-  // Of planar charts vec4(mean direction, C); of the others ψ in the last component, the rest unused.
+  // Of planar charts vec4(mean direction, C), where the maps have means those of MeanCell; of the others ψ in the last
+  // component, the rest unused.
   std::vector<LobeTexel> cells;
+  std::vector<LobeTexel> directions;  // by cell, where the maps have means: vec4(ψ, unused)
   int wordsPerSide = 1;                   // ⌈|Ω|/32⌉
   std::vector<GpuMemberBits> memberBits;  // [record · wordsPerSide + ψ/32]
   int layersPerStrip = 1;
@@ -28,7 +30,7 @@ inline bool needsCellTable(const MapChart& chart) { return !chart.planar || char
 
 /// Of irradiance and statistics.
 inline constexpr std::uint64_t kEvenBytesPerTexel = 16 + 8;
-/// Bytes of textures that the directional maps, the irradiance and the statistics take.
+/// Bytes of textures that the directional maps, their mean directions, the irradiance and the statistics take.
 std::uint64_t mapTextureBytes(const LightMaps& maps, LightMapFormat format, const TextureLimits& limits);
 constexpr std::uint64_t bytesPerTexel(LightMapFormat format) {
   return format == LightMapFormat::float32 ? 16 : format == LightMapFormat::half ? 8 : 4;

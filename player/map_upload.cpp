@@ -5,16 +5,20 @@
 #include <functional>
 
 #include "base/error.h"
+#include "dlm/mean_direction.h"
 #include "player/lobe.h"
 #include "player/texel_formats.h"
 
 namespace lucarne {
 namespace {
 
-/// How a texel of the directional maps is stored.
-struct TexelCoding {
+struct PixelCoding {
   GLenum internal, layout, type;
   std::size_t bytes;
+};
+
+/// How a texel of the directional maps is stored.
+struct TexelCoding : PixelCoding {
   std::function<void(Rgb value, std::byte* to)> write;
 };
 
@@ -26,21 +30,22 @@ void store(const T& value, std::byte* to) {
 TexelCoding codingOf(LightMapFormat format) {
   switch (format) {
     case LightMapFormat::float32:
-      return {GL_RGBA32F, GL_RGB, GL_FLOAT, 12, [](Rgb v, std::byte* to) { store(v, to); }};
+      return {{GL_RGBA32F, GL_RGB, GL_FLOAT, 12}, [](Rgb v, std::byte* to) { store(v, to); }};
     case LightMapFormat::rgb9e5:
-      return {GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4,
+      return {{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4},
               [](Rgb v, std::byte* to) { store(packRgb9e5(v), to); }};
     case LightMapFormat::half:
       break;
   }
-  return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, [](Rgb v, std::byte* to) {
+  return {{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8}, [](Rgb v, std::byte* to) {
             store(std::array<std::uint16_t, 4>{packHalf(v.x), packHalf(v.y), packHalf(v.z), 0}, to);
           }};
 }
 
 /// A rectangle of one layer: the texels of one ψ of one side.
 struct Rectangle {
-  const Rgb* texels = nullptr;
+  std::uint64_t first = 0;  // of the texels, into LightMaps::directional
+  std::uint16_t psi = 0;
   LayeredPlace place;
   int width = 0, height = 0;
 };
@@ -58,16 +63,17 @@ std::vector<std::vector<Rectangle>> rectanglesByLayer(const LightMaps& maps, con
       place.x += rank / tables.layersPerStrip * side.width;
       place.layer += rank % tables.layersPerStrip;
       layers[static_cast<std::size_t>(place.layer)].push_back(
-          {&maps.directional[d.first], place, side.width, side.height});
+          {d.first, d.psi, place, side.width, side.height});
       ++rank;
     }
   }
   return layers;
 }
 
-GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, LightMapFormat format, float scale) {
+/// `write(rectangle, texel, to)` stores a texel of the light maps.
+template <class Write>
+GlTexture uploadPages(const LightMaps& maps, const MapTables& tables, const PixelCoding& coding, const Write& write) {
   const LayeredPacking& packing = tables.directional;
-  const TexelCoding coding = codingOf(format);
   GlTexture texture =
       makeTexture({GL_TEXTURE_2D_ARRAY, coding.internal, 1, packing.width, packing.height, packing.layers});
   const auto pitch = static_cast<std::size_t>(packing.width) * coding.bytes;
@@ -76,17 +82,32 @@ GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, Ligh
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
     std::fill(page.begin(), page.end(), std::byte{0});
     for (const Rectangle& r : layers[layer]) {
-      const Rgb* from = r.texels;
+      std::uint64_t from = r.first;
       for (int y = 0; y < r.height; ++y) {
         std::byte* to = page.data() + static_cast<std::size_t>(r.place.y + y) * pitch +
                         static_cast<std::size_t>(r.place.x) * coding.bytes;
-        for (int x = 0; x < r.width; ++x, ++from, to += coding.bytes) coding.write(*from * scale, to);
+        for (int x = 0; x < r.width; ++x, ++from, to += coding.bytes) write(r, from, to);
       }
     }
     glTextureSubImage3D(texture.get(), 0, 0, 0, static_cast<GLint>(layer), packing.width, packing.height, 1,
                         coding.layout, coding.type, page.data());
   }
   return texture;
+}
+
+GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, LightMapFormat format, float scale) {
+  const TexelCoding coding = codingOf(format);
+  return uploadPages(maps, tables, coding, [&](const Rectangle&, std::uint64_t texel, std::byte* to) {
+    coding.write(maps.directional[texel] * scale, to);
+  });
+}
+
+GlTexture uploadMeans(const LightMaps& maps, const MapTables& tables, const DirectionSet& set) {
+  const float reach = meanReach(maps.directionCount);
+  const PixelCoding coding{GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, kMeanBytes};
+  return uploadPages(maps, tables, coding, [&](const Rectangle& r, std::uint64_t texel, std::byte* to) {
+    store(packMean(maps.meanDirections[texel], Vec3f(set.direction(r.psi)), reach), to);
+  });
 }
 
 /// One value a texel of the lit sides; `layout` is that of the floats at `texelsOf(side)`.
@@ -128,7 +149,7 @@ bool anyNeedsCellTable(const LightMaps& maps) {
 }
 
 void uploadCellTable(const DirectionSet& set, const TextureLimits& limits, GpuMaps& gpu) {
-  const CellTable table(set, limits.layers);
+  const CellTable table(set, limits.layers, gpu.hasMeans ? CellKind::mean : CellKind::direction);
   const int width = table.nodes() * table.tiles();
   gpu.cellTable = makeTexture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F, 1, width, table.nodes(), table.layers()});
   glTextureSubImage3D(gpu.cellTable.get(), 0, 0, 0, 0, width, table.nodes(), table.layers(), GL_RGBA, GL_FLOAT,
@@ -175,7 +196,11 @@ GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format) {
   gpu.directional = uploadDirectional(maps, tables, format, scale);
   gpu.irradiance = uploadIrradiance(maps, tables.irradiance);
   gpu.statistics = uploadStatistics(maps, tables.irradiance);
-  gpu.lightMapBytes = tables.directional.texels() * bytesPerTexel(format);
+  gpu.hasMeans = maps.hasMeans();
+  gpu.meanReach = meanReach(maps.directionCount);
+  gpu.means =
+      gpu.hasMeans ? uploadMeans(maps, tables, set) : makeTexture({GL_TEXTURE_2D_ARRAY, GL_RGB10_A2, 1, 1, 1, 1});
+  gpu.lightMapBytes = tables.directional.texels() * (bytesPerTexel(format) + (gpu.hasMeans ? kMeanBytes : 0));
   gpu.textureBytes = gpu.lightMapBytes + tables.irradiance.texels() * kEvenBytesPerTexel;
   if (anyNeedsCellTable(maps)) {
     uploadCellTable(set, limits, gpu);
@@ -184,6 +209,7 @@ GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format) {
   }
   gpu.sides = storageBuffer(tables.sides);
   gpu.cells = storageBuffer(tables.cells);
+  gpu.directions = storageBuffer(tables.directions);
   gpu.memberBits = storageBuffer(tables.memberBits);
   gpu.layersPerStrip = tables.layersPerStrip;
   gpu.wordsPerSide = tables.wordsPerSide;

@@ -10,15 +10,18 @@ namespace lucarne {
 
 struct GpuMaps {
   GlTexture directional;  // 2D array
+  GlTexture means;        // 2D array, at the same places: (m − ψ)/meanReach as RGB10_A2; one empty texel where there are none
   GlTexture irradiance;   // 2D array, 32-bit float, lx
   GlTexture statistics;   // 2D array, likewise: photons, relative error
   GlTexture cellTable;    // 2D array; one empty texel where no chart needs it
-  GlBuffer sides, cells, memberBits;
+  GlBuffer sides, cells, memberBits, directions;
+  bool hasMeans = false;
+  float meanReach = 0;
   int cellTableNodes = 1, cellTableLayers = 1;
   int layersPerStrip = 1, wordsPerSide = 1;
   float mapUnit = 1;                                  // lx per stored unit of `directional`, a power of two
   float cellSharpness = 1;                            // λ of a cell
-  std::uint64_t lightMapBytes = 0, textureBytes = 0;  // the directional maps; all textures here
+  std::uint64_t lightMapBytes = 0, textureBytes = 0;  // the directional maps and their means; all textures here
 };
 
 /// Limits of the current context.

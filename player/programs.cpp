@@ -1,5 +1,6 @@
 #include "player/programs.h"
 
+#include "dlm/lobe_width.h"
 #include "player/shader_library.h"
 
 namespace lucarne {
@@ -33,6 +34,8 @@ void setConstants(GLuint program, const ProgramConstants& c) {
   const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
   glProgramUniform1f(program, at("cellSharpness"), c.cellSharpness);
   glProgramUniform1f(program, at("capCosine"), c.capCosine);
+  glProgramUniform1f(program, at("meanReach"), c.meanReach);
+  glProgramUniform1f(program, at("meanBound"), kMeanBound);
   glProgramUniform1f(program, at("mapUnit"), c.mapUnit);
   glProgramUniform1f(program, at("outputScale"), c.outputScale);
   glProgramUniform1f(program, at("metresPerUnit"), c.metresPerUnit);
@@ -73,6 +76,8 @@ const ShadingProgram& Programs::shading(PassKind pass, ShaderVariant variant) {
   if (pass == PassKind::clear) defines.emplace_back("CLEAR");
   if (constants_.lobe == LobeKind::barsi) defines.emplace_back("LOBE_BARSI");
   if (constants_.lobe == LobeKind::sample) defines.emplace_back("LOBE_SAMPLE");
+  if (constants_.means) defines.emplace_back("MEAN_CELLS");
+  if (constants_.means && constants_.lobe == LobeKind::cell) defines.emplace_back("MEAN_LIGHT");
   const Names files = fragmentFiles(pass);
   ShadingProgram made{build(std::string(files.back()), {"camera.glsl", "surface_vertex.glsl"}, files, defines), -1, -1,
                       -1};

@@ -48,6 +48,8 @@ struct ProgramConstants {
   int layersPerStrip = 1, cellTableNodes = 1, cellTableLayers = 1;
   LobeKind lobe = LobeKind::cell;
   float capCosine = 1;  // of barsi
+  bool means = false;   // the maps have mean directions
+  float meanReach = 0;
 };
 
 class Programs {

@@ -2,31 +2,35 @@
 """Pictures of glossy reflections from light maps of more and more directions, against the path-traced truth, as Markdown.
 
   scripts/measure-glossy.py [--lucarne PROGRAM] [--out FOLDER] [--exponents 1,3,10,30,100] [--directions 14,32,64,128,256,512,1024]
-                            [--lobes cell,barsi,sample] [--photons 20M] [--samples 256] [--size 320x180]
+                            [--lobes cell,barsi,sample] [--moments off,on] [--photons 20M] [--samples 256] [--size 320x180]
+                            [--scene two_lamps|glossy_room] [--camera NAME]
 
-The scene is scenes/two_lamps.glb with its floor's Phong exponent changed. For each exponent the truth is rendered twice, with
+The scene is scenes/two_lamps.glb (or glossy_room.glb) with the Phong exponent of all that is glossy in it changed: in two_lamps the
+floor. `--moments on` bakes with mean directions. For each exponent the truth is rendered twice, with
 two seeds: what they differ by is the floor below which no picture can be told from the truth. `FLIP` is the mean HDR-FLIP,
-`error` the sum of absolute differences over the sum of the truth, `on disk` the size of the .dlm, `frame` the time of one
-frame of that size in software OpenGL. What was baked or rendered before is kept and not made again.
+`error` the sum of absolute differences over the sum of the truth, `on disk` the size of the .dlm, `bake` the processor seconds of the bake, `frame` the
+time of one frame of that size in software OpenGL. What was baked or rendered before is kept and not made again.
 """
 import argparse
 import json
 import os
 import re
+import resource
 import struct
 import subprocess
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-FLOOR = "glossy_floor"
+MATT = 0.84  # a roughness from which on nothing is glossy
 
 
 def with_exponent(source, target, exponent):
-    """Copies a .glb; the floor gets the roughness whose lobe is about a Phong lobe of that exponent."""
+    """Copies a .glb; what is glossy gets the roughness whose lobe is about a Phong lobe of that exponent."""
     data = open(source, "rb").read()
     length = struct.unpack_from("<I", data, 12)[0]
     document, rest = json.loads(data[20:20 + length]), data[20 + length:]
-    floor = next(m for m in document["materials"] if m["name"] == FLOOR)
-    floor["pbrMetallicRoughness"]["roughnessFactor"] = (1 / (2 * exponent + 1)) ** 0.25
+    for material in document["materials"]:
+        if material["pbrMetallicRoughness"].get("roughnessFactor", 1) < MATT:
+            material["pbrMetallicRoughness"]["roughnessFactor"] = (1 / (2 * exponent + 1)) ** 0.25
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     with open(target, "wb") as out:
@@ -50,32 +54,39 @@ class Study:
 
     def truth(self, exponent):
         """The scene and its truth, and how much two truths differ."""
-        scene = self.path(f"n{exponent}.glb")
+        scene = self.path(f"{self.o.scene}-n{exponent}.glb")
         if not os.path.exists(scene):
-            with_exponent(os.path.join(HERE, "../scenes/two_lamps.glb"), scene, exponent)
-        pictures = [self.path(f"n{exponent}-truth{seed}.exr") for seed in (1, 2)]
+            with_exponent(os.path.join(HERE, f"../scenes/{self.o.scene}.glb"), scene, exponent)
+        pictures = [self.path(f"{self.o.scene}-n{exponent}-truth{seed}.exr") for seed in (1, 2)]
         for seed, picture in enumerate(pictures, 1):
             if not os.path.exists(picture):
                 self.run("render", scene, "-o", picture, "--renderer", "pathtraced", "--samples", str(self.o.samples), "--size",
-                         self.o.size, "--seed", str(seed), "--quiet")
+                         self.o.size, "--seed", str(seed), "--quiet", *self.camera())
         return scene, pictures[0], self.compare(*pictures)
+
+    def camera(self):
+        return ["--camera", self.o.camera] if self.o.camera else []
 
     def compare(self, truth, picture):
         return json.loads(self.run("compare", truth, picture, "--json").stdout)
 
-    def bake(self, scene, exponent, directions):
-        base = self.path(f"n{exponent}-{directions}")
+    def bake(self, scene, exponent, directions, moments):
+        """The light maps' name, the exponent that is shown where it is another, and processor seconds."""
+        base = self.path(f"{self.o.scene}-n{exponent}-{directions}" + ("-moments" if moments else ""))
         if not os.path.exists(base + ".dlm"):
+            before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
             self.run("bake", scene, "-o", base + ".dlm", "--directions", str(directions), "--photons", self.o.photons, "--report",
-                     base + ".json", "--quiet")
+                     base + ".json", "--quiet", *(["--moments"] if moments else []))
+            with open(base + ".seconds", "w") as out:
+                out.write(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before))
         report = json.load(open(base + ".json"))
-        shown = {w["material"]: w["shown_exponent"] for w in report["widened_highlights"]}.get(FLOOR)
-        return base, "" if shown is None else f"{shown:.0f}"
+        shown = [w["shown_exponent"] for w in report["widened_highlights"] if not w["textured"]]
+        return base, f"{max(shown):.0f}" if shown else "", float(open(base + ".seconds").read())
 
     def picture(self, base, lobe, truth):
         """FLIP and relative error of one picture, and the time of its frame, ms."""
         picture = f"{base}-{lobe}.exr"
-        log = self.run("render", base + ".dlm", "-o", picture, "--size", self.o.size, "--lobe", lobe).stderr
+        log = self.run("render", base + ".dlm", "-o", picture, "--size", self.o.size, "--lobe", lobe, *self.camera()).stderr
         difference = self.compare(truth, picture)
         return difference["flip"]["mean"], difference["relative_error"], float(re.search(r"frame ([0-9.]+) ms", log).group(1))
 
@@ -84,15 +95,17 @@ def table(study, exponent, options):
     scene, truth, floor = study.truth(exponent)
     print(f"\n### Exponent {exponent}\n\nTwo truths: FLIP {floor['flip']['mean']:.4f}, error {100 * floor['relative_error']:.1f} %.\n")
     lobes = options.lobes.split(",")
-    print("| directions | shown exponent | on disk, MB | " + " | ".join(f"{l}: FLIP | error | frame, ms" for l in lobes) + " |")
-    print("|---" * (3 + 3 * len(lobes)) + "|")
+    print("| directions | moments | shown exponent | on disk, MB | bake, s | "
+          + " | ".join(f"{l}: FLIP | error | frame, ms" for l in lobes) + " |")
+    print("|---" * (5 + 3 * len(lobes)) + "|")
     for directions in options.directions.split(","):
-        base, shown = study.bake(scene, exponent, directions)
-        row = [directions, shown, f"{folder_size(base + '.dlm') / 1e6:.1f}"]
-        for lobe in lobes:
-            flip, error, frame = study.picture(base, lobe, truth)
-            row += [f"{flip:.4f}", f"{100 * error:.1f} %", f"{frame:.0f}"]
-        print("| " + " | ".join(row) + " |", flush=True)
+        for moments in options.moments.split(","):
+            base, shown, seconds = study.bake(scene, exponent, directions, moments == "on")
+            row = [directions, moments, shown, f"{folder_size(base + '.dlm') / 1e6:.1f}", f"{seconds:.1f}"]
+            for lobe in lobes:
+                flip, error, frame = study.picture(base, lobe, truth)
+                row += [f"{flip:.4f}", f"{100 * error:.1f} %", f"{frame:.0f}"]
+            print("| " + " | ".join(row) + " |", flush=True)
 
 
 def main():
@@ -102,6 +115,9 @@ def main():
     parser.add_argument("--exponents", default="1,3,10,30,100")
     parser.add_argument("--directions", default="14,32,64,128,256,512,1024")
     parser.add_argument("--lobes", default="cell,barsi,sample")
+    parser.add_argument("--moments", default="off,on")
+    parser.add_argument("--scene", default="two_lamps", choices=["two_lamps", "glossy_room"])
+    parser.add_argument("--camera")
     parser.add_argument("--photons", default="20M")
     parser.add_argument("--samples", type=int, default=256)
     parser.add_argument("--size", default="320x180")

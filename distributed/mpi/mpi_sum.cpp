@@ -58,6 +58,7 @@ void sumSpan(MPI_Comm comm, std::span<std::int64_t> values) {
 void sumTallies(MPI_Comm comm, Tallies& tallies) {
   sumSpan(comm, tallies.light());
   sumSpan(comm, tallies.statistics());
+  sumSpan(comm, tallies.moments());
   if (tallies.direct() != nullptr) sumTallies(comm, *tallies.direct());
   if (rankOf(comm) != 0) tallies.clear();
 }

@@ -1,5 +1,6 @@
 
 // The light maps of a side and the cells that they are of: vec4(mean direction, cosine integral), both clipped by the horizon.
+// MEAN_CELLS: the direction is that of constant light and its length says how far it spreads (m̄ of lobe.h).
 // Planar charts have their own list. Others (CURVED) look it up by the shading normal: octahedral layers, one a ψ, values at
 // the texel centres so that the axes are exact; the list then holds ψ.
 
@@ -29,5 +30,16 @@ vec4 cellAt(uint index, vec2 node) { return cells[index]; }
 
 // Texel position inside the rectangle, clamped to its texel centres: pages are powers of two, so no neighbour leaks in.
 vec2 texelPosition(Side side) { return clamp(v.chartUv * side.size, vec2(0.5), side.size - 0.5); }
+
+#ifdef MEAN_LIGHT
+layout(binding = 12) uniform sampler2DArray meanMaps;  // at the places of `maps`: (m − ψ)/meanReach, −1 … 1 as 0 … 1
+layout(std430, binding = 4) readonly buffer DirectionBlock { vec4 directions[]; };  // ψ of each of `cells`
+uniform float meanReach;
+
+vec3 meanValue(vec2 page, uint layer, uint cell) {
+  vec3 code = textureLod(meanMaps, vec3(page, float(layer)), 0.0).xyz;
+  return directions[cell].xyz + meanReach * (code * 2.0 - 1.0);
+}
+#endif
 
 vec3 mapValue(vec2 page, uint layer) { return textureLod(maps, vec3(page, float(layer)), 0.0).rgb; }

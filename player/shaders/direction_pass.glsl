@@ -17,10 +17,13 @@ void main() {
   if (!ownsPixel() || !member.isMember) discard;
   Side side = sideRecords[id];
   vec4 cell = cellAt(side.firstCell + member.rank, octahedral(n));
-  vec4 light = vec4(0, 0, 0, cell.w);
-  if (member.isStored) light.rgb = storedLight(side, member.rank);
-  sums = light * lobeWeight(lobeWidth(alpha), mirrorDirection(mapped), cell.xyz, mapped);
+  vec3 light = member.isStored ? storedLight(side, member.rank) : vec3(0), r = mirrorDirection(mapped), mean = cell.xyz;
+#ifdef MEAN_LIGHT
+  if (member.isStored) mean = storedMean(side, member.rank);
+#endif
+  float width = lobeWidth(alpha);
+  sums = vec4(light * lobeWeight(width, r, mean, mapped), cell.w * lobeWeight(width, r, cell.xyz, mapped));
 #ifdef RELIEF
-  reliefSums = light * reliefWeight(n, mapped, cell.xyz);
+  reliefSums = vec4(light * reliefWeight(n, mapped, mean), cell.w * reliefWeight(n, mapped, cell.xyz));
 #endif
 }

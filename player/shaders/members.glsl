@@ -23,9 +23,22 @@ Member memberOf(uint id, int psi, int words) {
   return m;
 }
 
-// What the side's map of rank `rank` holds, in stored units.
-vec3 storedLight(Side side, uint rank) {
+// Where the side's map of rank `rank` lies: place on its page, layer.
+vec3 storedPlace(Side side, uint rank) {
   uint strip = rank / uint(layersPerStrip);
   vec2 texel = side.mapOrigin + texelPosition(side) + vec2(float(strip) * side.size.x, 0);
-  return mapValue(texel / vec2(textureSize(maps, 0).xy), side.firstLayer + rank - strip * uint(layersPerStrip));
+  return vec3(texel / vec2(textureSize(maps, 0).xy), float(side.firstLayer + rank - strip * uint(layersPerStrip)));
 }
+
+// What it holds, in stored units.
+vec3 storedLight(Side side, uint rank) {
+  vec3 place = storedPlace(side, rank);
+  return mapValue(place.xy, uint(place.z));
+}
+
+#ifdef MEAN_LIGHT
+vec3 storedMean(Side side, uint rank) {
+  vec3 place = storedPlace(side, rank);
+  return meanValue(place.xy, uint(place.z), side.firstCell + rank);
+}
+#endif

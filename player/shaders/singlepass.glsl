@@ -9,10 +9,10 @@ layout(location = 0) out vec4 color;
 #endif
 
 // Stored maps come first in a side's list, in the order of their layers; then the empty ones, which only count as members.
-void addLight(inout LightSums sums, vec4 light, vec4 cell, float width, vec3 r, vec3 n, vec3 mapped) {
-  sums.lobe += light * lobeWeight(width, r, cell.xyz, mapped);
+void addLight(inout LightSums sums, vec4 light, vec3 d, float width, vec3 r, vec3 n, vec3 mapped) {
+  sums.lobe += light * lobeWeight(width, r, d, mapped);
 #ifdef RELIEF
-  sums.relief += light * reliefWeight(n, mapped, cell.xyz);
+  sums.relief += light * reliefWeight(n, mapped, d);
 #endif
 }
 
@@ -30,12 +30,19 @@ LightSums lightSums(Side side, Material m, vec3 mapped) {
     vec2 page = texel / pageSize;
     for (uint k = 0u; k < count; ++k) {
       vec4 cell = cellAt(side.firstCell + start + k, node);
-      addLight(sums, vec4(mapValue(page, side.firstLayer + k), cell.w), cell, width, r, n, mapped);
+      vec3 light = mapValue(page, side.firstLayer + k);
+#ifdef MEAN_LIGHT
+      vec3 mean = meanValue(page, side.firstLayer + k, side.firstCell + start + k);
+      addLight(sums, vec4(light, 0), mean, width, r, n, mapped);
+      addLight(sums, vec4(0, 0, 0, cell.w), cell.xyz, width, r, n, mapped);
+#else
+      addLight(sums, vec4(light, cell.w), cell.xyz, width, r, n, mapped);
+#endif
     }
   }
   for (uint k = stored; k < side.members; ++k) {
     vec4 cell = cellAt(side.firstCell + k, node);
-    addLight(sums, vec4(0, 0, 0, cell.w), cell, width, r, n, mapped);
+    addLight(sums, vec4(0, 0, 0, cell.w), cell.xyz, width, r, n, mapped);
   }
 #endif
   return sums;

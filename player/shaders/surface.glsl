@@ -49,6 +49,7 @@ layout(binding = 8) uniform usampler2D ownerImage;
 
 uniform int materialIndex;
 uniform float cellSharpness;  // λ of a cell of Ω
+uniform float meanBound;      // how many times as sharp as a cell its light may be shown
 uniform float capCosine;      // of the radius of a cap as large as a cell
 
 const float kPi = 3.14159265358979;
@@ -97,7 +98,12 @@ vec3 shadingNormal(Material m) {
 
 // What a normal map makes of the light of a cell with mean direction `d`: received by it, over received by the normal of
 // the maps. Grazing light is not made more than ten times as much.
-float reliefWeight(vec3 n, vec3 mapped, vec3 d) { return max(dot(mapped, d), 0.0) / max(dot(n, d), 0.1); }
+float reliefWeight(vec3 n, vec3 mapped, vec3 d) {
+#ifdef MEAN_CELLS
+  d = normalize(d);
+#endif
+  return max(dot(mapped, d), 0.0) / max(dot(n, d), 0.1);
+}
 
 // Share of the pixel that the surface covers.
 float coverage(Material m) {
@@ -130,6 +136,9 @@ vec3 mirrorDirection(vec3 n) {
 float lobeWidth(float alpha) { return max(0.5 * (1.0 / (alpha * alpha) - 1.0), 0.0); }  // the Phong exponent
 
 float lobeWeight(float exponent, vec3 r, vec3 d, vec3 n) {
+#ifdef MEAN_CELLS
+  d = normalize(d);
+#endif
   float c = dot(r, d);
 #ifdef LOBE_BARSI
   float across = sqrt(max((1.0 - c * c) * (1.0 - capCosine * capCosine), 0.0));
@@ -140,6 +149,16 @@ float lobeWeight(float exponent, vec3 r, vec3 d, vec3 n) {
   float density = (exponent + 1.0) * pow(max(c, 0.0), exponent);
 #endif
   return density / (2.0 * kPi * max(dot(n, d), 0.02));
+}
+#elif defined(MEAN_LIGHT)
+float lobeWidth(float alpha) { return 0.5 * (1.0 / (alpha * alpha) + 1.0); }
+
+// g of lobe.h; `m`: a mean direction, of the cell's light or of constant light.
+float lobeWeight(float lobe, vec3 r, vec3 m, vec3 n) {
+  float square = dot(m, m), len = max(sqrt(square), 1e-4), inside = min(len, 1.0);
+  float spread = (1.0 - min(square, 1.0)) / (inside * (3.0 - inside * inside));
+  float sharpness = lobe / (1.0 + lobe * (1.0 / (meanBound * cellSharpness) + (1.0 - 1.0 / meanBound) * spread));
+  return sharpness / (1.0 - exp(-2.0 * sharpness)) * exp(max(sharpness * (dot(r, m) / len - 1.0), -60.0));
 }
 #else
 float lobeWidth(float alpha) {

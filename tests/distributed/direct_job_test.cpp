@@ -23,7 +23,7 @@ Scene smallRoom() {
   return s.build();
 }
 
-class DirectJobs : public ::testing::Test {
+class DirectJobs : public ::testing::TestWithParam<bool> {
  protected:
   static constexpr std::uint64_t kPhotons = 40'000, kSamples = 20;
 
@@ -43,6 +43,7 @@ class DirectJobs : public ::testing::Test {
     o.seed = 5;
     o.direct = DirectMode::gathered;
     o.directSamples = kSamples;
+    o.moments = GetParam();
     return o;
   }
   BakeJob job(IndexRange photons, IndexRange samples, int threads) const {
@@ -87,13 +88,16 @@ class DirectJobs : public ::testing::Test {
   std::vector<std::uint8_t> bytes_;
 };
 
-TEST_F(DirectJobs, AnyNumberOfThreadsGivesTheSameBits) {
+INSTANTIATE_TEST_SUITE_P(Moments, DirectJobs, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "With" : "Without"; });
+
+TEST_P(DirectJobs, AnyNumberOfThreadsGivesTheSameBits) {
   const BakeState one = bakeWhole(1);
   EXPECT_GT(one.header.direct->counts.places, 1000u);
   for (const int threads : {2, 3}) expectSame(bakeWhole(threads), one);
 }
 
-TEST_F(DirectJobs, PartsMergedInAnyOrderAreOneBake) {
+TEST_P(DirectJobs, PartsMergedInAnyOrderAreOneBake) {
   const BakeState whole = bakeWhole(2);
   const TempFolder temp;
   std::vector<std::filesystem::path> files;
@@ -114,7 +118,7 @@ TEST_F(DirectJobs, PartsMergedInAnyOrderAreOneBake) {
   }
 }
 
-TEST_F(DirectJobs, EverySavedStateGoesOnToTheSameEnd) {
+TEST_P(DirectJobs, EverySavedStateGoesOnToTheSameEnd) {
   const BakeState whole = bakeWhole(2);
   const TempFolder temp;
   CheckpointFolder folder(temp / "x.checkpoint");
@@ -134,14 +138,14 @@ TEST_F(DirectJobs, EverySavedStateGoesOnToTheSameEnd) {
   }
 }
 
-TEST_F(DirectJobs, SamplesThatAreNoBeginningAreRefused) {
+TEST_P(DirectJobs, SamplesThatAreNoBeginningAreRefused) {
   BakeState state = bake({0, 0}, {3, 5}, 1);
   EXPECT_THROW(remainingSamples(state, {0, kSamples}, "x"), Error);
   EXPECT_THROW(remainingSamples(state, {3, 4}, "x"), Error);
   EXPECT_EQ(remainingSamples(state, {3, 9}, "x").begin, 5u);
 }
 
-TEST_F(DirectJobs, SamplesThatTwoPartsHoldAreRefused) {
+TEST_P(DirectJobs, SamplesThatTwoPartsHoldAreRefused) {
   const TempFolder temp;
   write(bake({0, 1000}, {0, 6}, 1), bytes_, temp / "a.part");
   write(bake({1000, 2000}, {5, 9}, 1), bytes_, temp / "b.part");
@@ -187,7 +191,7 @@ TEST_F(DirectHeaders, AreReadStrictly) {
   EXPECT_NE(refusal([&](nlohmann::json& j) { j["tally_sets"].erase(1); }), "") << "planned.samples is left over";
 }
 
-TEST_F(DirectJobs, AnAlteredSecondSetIsRefused) {
+TEST_P(DirectJobs, AnAlteredSecondSetIsRefused) {
   const TempFolder temp;
   const BakeState state = bake({0, 100}, {0, 2}, 1);
   write(state, bytes_, temp / "a.part");
@@ -204,7 +208,7 @@ TEST_F(DirectJobs, AnAlteredSecondSetIsRefused) {
   EXPECT_THROW(addPart(PartReader(temp / "a.part"), photonsAlone), PartError);
 }
 
-TEST_F(DirectJobs, SharesOfPartsHoldEverySampleOnce) {
+TEST_P(DirectJobs, SharesOfPartsHoldEverySampleOnce) {
   BakeOptions o = options();
   for (const std::uint64_t parts : {1u, 3u, 20u, 77u}) {
     std::uint64_t at = 0;
@@ -217,7 +221,7 @@ TEST_F(DirectJobs, SharesOfPartsHoldEverySampleOnce) {
   }
 }
 
-TEST_F(DirectJobs, SettingsTellTheTwoWaysApart) {
+TEST_P(DirectJobs, SettingsTellTheTwoWaysApart) {
   BakeOptions photons = options();
   photons.direct = DirectMode::photons;
   EXPECT_FALSE(traceSettings(photons).contains("direct"));

@@ -8,6 +8,7 @@
 #include "dlm/direction_set.h"
 #include "dlm/dlm_reader.h"
 #include "dlm/dlm_writer.h"
+#include "dlm/mean_direction.h"
 #include "tests/support/scene_builder.h"
 
 namespace lucarne::test {
@@ -90,6 +91,22 @@ class BakedScene {
   }
   void addEmptyDirection(int psi) {
     maps_.sides.back().directions.push_back({static_cast<std::uint16_t>(psi), SideDirection::kEmptyMap});
+  }
+
+  /// Mean directions of all that is stored, anywhere within half the reach of their ψ.
+  void addMeans() {
+    const DirectionSet set(maps_.directionCount);
+    std::mt19937 rng(9);
+    std::uniform_real_distribution<float> uniform(-0.5f, 0.5f);
+    maps_.meanDirections.resize(maps_.directional.size());
+    for (const SideMaps& side : maps_.sides) {
+      for (const SideDirection& d : side.directions) {
+        for (std::uint64_t t = 0; d.stored() && t < side.texelCount(); ++t) {
+          const Vec3f offset = Vec3f{uniform(rng), uniform(rng), uniform(rng)} * meanReach(maps_.directionCount);
+          maps_.meanDirections[d.first + t] = boundedMean(Vec3f(set.direction(d.psi)) + offset);
+        }
+      }
+    }
   }
 
   void setAtlas(int width, int height) {

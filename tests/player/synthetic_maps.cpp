@@ -1,5 +1,7 @@
 #include "tests/player/synthetic_maps.h"
 
+#include "player/cell_tables.h"
+
 namespace lucarne::test {
 namespace {
 
@@ -100,7 +102,9 @@ void BakedSceneBuilder::addSide(LightMaps& maps, const ChartPlan& plan, std::uin
         const auto C = static_cast<float>(set_.clippedCell(psi, n).cosIntegral);
         const Rgb B = radiance_(plan.points[i], set_.direction(psi)) * C;
         E[i] += B;
-        if (spec.directions) maps.directional.push_back(B);
+        if (!spec.directions) continue;
+        maps.directional.push_back(B);
+        if (means_) maps.meanDirections.push_back(meanCell(set_, psi, n).direction);
       }
       if (spec.directions) side.directions.push_back(direction);
     }
@@ -165,8 +169,9 @@ Material glossy(Rgb color, float metallic, float roughness) {
 
 }  // namespace
 
-BakedScene furnishedRoom(int directionCount) {
+BakedScene furnishedRoom(int directionCount, bool means) {
   BakedSceneBuilder b(directionCount, roomLight);
+  if (means) b.withMeans();
   const std::uint32_t wall = b.addMaterial(diffuseMaterial({0.7f, 0.7f, 0.65f}));
   const std::uint32_t floor = b.addMaterial(glossy({0.5f, 0.35f, 0.2f}, 0, 0.45f));
   const std::uint32_t metal = b.addMaterial(glossy({0.9f, 0.75f, 0.4f}, 1, 0.35f));

@@ -38,6 +38,8 @@ class BakedSceneBuilder {
   void addSphere(Vec3d center, double radius, std::uint32_t material, int cells, int texels, SideSpec front = {});
   void addCamera(Vec3d eye, Vec3d target, double yfov = 0.8) { builder_.addCamera(eye, target, yfov); }
 
+  /// Maps get mean directions, too: those of light that fills each cell evenly.
+  void withMeans() { means_ = true; }
   BakedScene build();
 
   const DirectionSet& directions() const { return set_; }
@@ -55,6 +57,7 @@ class BakedSceneBuilder {
   void addSide(LightMaps& maps, const ChartPlan& plan, std::uint32_t chart, bool back);
 
   DirectionSet set_;
+  bool means_ = false;
   IncidentRadiance radiance_;
   SceneBuilder builder_;
   std::vector<ChartPlan> plans_;
@@ -72,6 +75,6 @@ IncidentRadiance constantRadiance(Rgb L);
 
 /// A furnished room for the comparison of renderers, with every kind of side: flat, smooth, two-sided, with empty maps,
 /// with irradiance alone, unlit, textured.
-BakedScene furnishedRoom(int directionCount);
+BakedScene furnishedRoom(int directionCount, bool means = false);
 
 }  // namespace lucarne::test

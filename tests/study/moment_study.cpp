@@ -27,6 +27,7 @@ namespace {
 constexpr int kViews = 24, kQuadrature = 8192;
 constexpr std::array kSizes = {14, 32, 64, 128, 256, 1024};
 constexpr std::array kExponents = {1.f, 3.f, 10.f, 30.f, 100.f, 300.f};
+constexpr std::array kBounds = {2.0, 4.0, 8.0, 1e9};  // how many times as sharp as a cell light is taken to be
 
 struct Sample {
   std::uint64_t texel;
@@ -85,7 +86,8 @@ struct Patch {
 
 /// Squared errors of the ways, and the truth squared.
 struct Errors {
-  double cell = 0, moment = 0, own = 0, power = 0;  // own: the photons themselves, against the truth
+  double cell = 0, own = 0, power = 0;          // own: the photons themselves, against the truth
+  std::array<double, kBounds.size()> moment{};  // by bound
 };
 
 double direct(std::span<const Sample> samples, double sharpness, Vec3d r) {
@@ -105,8 +107,13 @@ struct CellSum {
   double value, constant;
 };
 
-/// Sharpness of light of which the mean direction has length `length`; see Banerjee et al. 2005.
-double concentration(double length) { return length * (3 - length * length) / std::max(1e-6, 1 - length * length); }
+/// g of lobe.h.
+double meanDensity(Vec3d mean, double lobe, double bounded, double bound, Vec3d r) {
+  const double length = std::clamp(std::sqrt(dot(mean, mean)), 1e-4, 1.0);
+  const double spread = (1 - length * length) / (length * (3 - length * length));
+  const double sharpness = lobe / (1 + lobe * (1 / (bound * bounded) + (1 - 1 / bound) * spread));
+  return sharpness / (1 - std::exp(-2 * sharpness)) * gaussian(sharpness, dot(mean, r) / length);
+}
 
 void compare(const Patch& patch, const DirectionSet& set, double exponent, bool sameTruth,
              const std::vector<Vec3d>& points, Errors& errors) {
@@ -119,27 +126,32 @@ void compare(const Patch& patch, const DirectionSet& set, double exponent, bool 
   const double lobe = exponent + 1, wide = static_cast<double>(cellSharpness(set.count()));
   const double shown = lobe * wide / (lobe + wide);
   std::vector<LobeCell> shape;
-  for (int psi = 0; psi < set.count(); ++psi) shape.push_back(lobeCell(set, psi, patch.n));
+  std::vector<MeanCell> means;
+  for (int psi = 0; psi < set.count(); ++psi) {
+    shape.push_back(lobeCell(set, psi, patch.n));
+    means.push_back(meanCell(set, psi, patch.n));
+  }
   const std::vector<Vec3d> views = spiral(2 * kViews);
   for (const Vec3d& r : views) {
     if (dot(r, patch.n) < 0.1) continue;
     const double scale = 1 / constantLight(points, patch.n, lobe, r);
     const double own = direct(patch.seen, lobe, r) * scale;
     const double truth = sameTruth ? own : direct(patch.truth, lobe, r) * scale * patch.truthScale;
-    double byCell = 0, constant = 0, byMoment = 0;
+    double byCell = 0, constant = 0;
+    std::array<double, kBounds.size()> light{}, even{};
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const double w = gaussian(shown, dot(Vec3d(shape[k].direction), r));
       byCell += cells[k].light * w;
       constant += static_cast<double>(shape[k].cosIntegral) * w;
-      if (!(cells[k].light > 0)) continue;
-      const double length = std::sqrt(dot(cells[k].moment, cells[k].moment));
-      const double kappa = std::max(concentration(length / cells[k].light), wide / 2);
-      const double both = lobe * kappa / (lobe + kappa);
-      byMoment += cells[k].light * (both / lobe) * gaussian(both, dot(cells[k].moment, r) / length);
+      for (std::size_t b = 0; b < kBounds.size(); ++b) {
+        even[b] += static_cast<double>(means[k].cosIntegral) * meanDensity(Vec3d(means[k].direction), lobe, wide, kBounds[b], r);
+        if (cells[k].light > 0)
+          light[b] += cells[k].light * meanDensity(cells[k].moment / cells[k].light, lobe, wide, kBounds[b], r);
+      }
     }
     const auto square = [](double v) { return v * v; };
     errors.cell += square(byCell / constant - truth);
-    errors.moment += square(byMoment * scale - truth);
+    for (std::size_t b = 0; b < kBounds.size(); ++b) errors.moment[b] += square(light[b] / even[b] - truth);
     errors.own += square(own - truth);
     errors.power += square(truth);
   }
@@ -189,9 +201,10 @@ int run(int argc, char** argv) {
   const std::vector<Patch> chosen = choosePatches(seen, truth, patches, 1.0 / kMore);
   double photons = 0;
   for (const Patch& p : chosen) photons += static_cast<double>(p.seen.size());
-  std::printf("%zu patches of %.0f photons each\n%8s %6s | %10s %10s | %10s %10s %10s\n", chosen.size(),
-              photons / static_cast<double>(chosen.size()), "exponent", "cells", "same: cell", "moment", "new: cell",
-              "moment", "photons");
+  std::printf("%zu patches of %.0f photons each; means bounded to 2, 4, 8 cells' sharpness, and not bounded\n", chosen.size(),
+              photons / static_cast<double>(chosen.size()));
+  std::printf("%8s %6s | %10s %9s %9s %9s %9s | %9s %9s %9s %9s %9s %9s\n", "exponent", "cells", "same: cell", "2", "4", "8",
+              "none", "new: cell", "2", "4", "8", "none", "photons");
   const std::vector<Vec3d> points = spiral(kQuadrature);
   for (const float exponent : kExponents) {
     for (const int size : kSizes) {
@@ -202,9 +215,14 @@ int run(int argc, char** argv) {
         compare(p, set, static_cast<double>(exponent), false, points, other);
       }
       const auto percent = [](double error, const Errors& e) { return 100 * std::sqrt(error / e.power); };
-      std::printf("%8.0f %6d | %9.1f%% %9.1f%% | %9.1f%% %9.1f%% %9.1f%%\n", static_cast<double>(exponent), size,
-                  percent(same.cell, same), percent(same.moment, same), percent(other.cell, other),
-                  percent(other.moment, other), percent(other.own, other));
+      const auto row = [&](const Errors& e) {
+        std::printf(" | %9.1f%%", percent(e.cell, e));
+        for (const double m : e.moment) std::printf(" %8.1f%%", percent(m, e));
+      };
+      std::printf("%8.0f %6d", static_cast<double>(exponent), size);
+      row(same);
+      row(other);
+      std::printf(" %8.1f%%\n", percent(other.own, other));
       std::fflush(stdout);
     }
   }
