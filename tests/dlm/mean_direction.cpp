@@ -91,8 +91,8 @@ TEST(MeanDirection, MomentsOfConstantLightAgreeWithQuadrature) {
       }
       for (int psi = 0; psi < count; ++psi) {
         const Vec3d exact = set.cosineMoment(psi, n), other = sums[static_cast<std::size_t>(psi)];
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(exact[c], other[c], 2e-4) << count << " " << psi;
-        EXPECT_NEAR(dot(exact, n), dot(other, n), 2e-4);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(exact[c], other[c], 5e-4) << count << " " << psi;
+        EXPECT_NEAR(dot(exact, n), dot(other, n), 5e-4);
       }
     }
   }

@@ -77,7 +77,7 @@ TEST(MeanLobe, ConstantLightStaysConstantWithinTheRoundingOfPackedMeans) {
       const Vec3f psi(set.direction(m.psi[k]));
       packed.push_back(unpackMean(packMean(m.means[k], psi, reach), psi, reach));
     }
-    EXPECT_LT(worstOfConstantLight(set, m, packed), 0.03f) << count;
+    EXPECT_LT(worstOfConstantLight(set, m, packed), count <= 64 ? 0.03f : 0.05f) << count;
   }
 }
 
@@ -138,7 +138,7 @@ TEST(MeanLobe, AHighlightFollowsALampThatMovesThroughTheCells) {
       before = with;
       beforeWithout = without;
     }
-    EXPECT_LT(off, 0.35 * radius) << count;       // the hemisphere's edge and the cells' unevenness pull at it
+    EXPECT_LT(off, 0.4 * radius) << count;        // the hemisphere's edge and the cells' unevenness pull at it
     EXPECT_LT(step, 0.25 * radius) << count;      // the lamp moves by 0.02
     EXPECT_GT(offWithout, 1.5 * off) << count;
     EXPECT_GT(stepWithout, 0.6 * radius) << count;  // from cell to cell
