@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -34,7 +35,7 @@ constexpr std::chrono::milliseconds kSameSignal(50);
 
 }  // namespace
 
-Interrupts::Interrupts() {
+Interrupts::Interrupts(std::string stopping) : stopping_(std::move(stopping)) {
   sigemptyset(&watched_);
   for (const int signal : {SIGINT, SIGTERM, SIGXCPU, SIGUSR1}) sigaddset(&watched_, signal);
   if (!isIgnored(SIGHUP)) sigaddset(&watched_, SIGHUP);
@@ -76,7 +77,7 @@ void Interrupts::stop() {
   first_ = Clock::now();
   stop_ = true;
   if (::isatty(STDERR_FILENO) == 1) std::fputs("\n", stderr);  // the live line stands there
-  logInfo("stopping: the state is being saved; a second signal ends at once");
+  logInfo("stopping: " + stopping_ + "; a second signal ends at once");
 }
 
 JobControl Interrupts::control() {

@@ -1,4 +1,4 @@
-// Signals as requests to a running bake.
+// Signals as requests to a running command.
 #pragma once
 
 #include <signal.h>
@@ -14,15 +14,15 @@
 namespace lucarne {
 
 /// While it lives:
-///   SIGINT, SIGTERM, SIGXCPU, and SIGHUP where it is not ignored (nohup), ask the bake to stop; where nothing would be
-///   lost, or at the second of them, the process ends at once with 130;
+///   SIGINT, SIGTERM, SIGXCPU, and SIGHUP where it is not ignored (nohup), ask the command to stop, which one line
+///   tells: `stopping`; where nothing would be lost, or at the second of them, the process ends at once with 130;
 ///   SIGUSR1 asks for a preview;
 ///   SIGPIPE and SIGXFSZ are ignored: what cannot be written is an error like any other.
 /// There are no handlers: the signals are blocked, and a thread waits for them. To be made before other threads are,
 /// since they take over what is blocked.
 class Interrupts {
  public:
-  Interrupts();
+  explicit Interrupts(std::string stopping = "the state is being saved");
   ~Interrupts();
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
@@ -35,6 +35,7 @@ class Interrupts {
   void watch();
   void stop();
 
+  std::string stopping_;
   sigset_t watched_, before_;
   struct sigaction pipe_, size_;  // what was done about SIGPIPE and SIGXFSZ
   std::atomic<bool> stop_{false}, preview_{false}, ended_{false};

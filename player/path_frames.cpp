@@ -8,6 +8,7 @@
 #include "player/gpu_timer.h"
 #include "player/offscreen.h"
 #include "player/overlay.h"
+#include "player/read_back.h"
 #include "player/shown_scene.h"
 
 namespace lucarne {
@@ -21,19 +22,7 @@ struct Screen {
         color(makeTexture({GL_TEXTURE_2D, GL_RGBA8, 1, width, height, 1})),
         framebuffer(makeFramebuffer(color.get(), 0, "an 8-bit image")) {}
 
-  std::vector<std::uint8_t> read() const {
-    const auto row = static_cast<std::size_t>(width) * 3;
-    std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height)), flipped;
-    flipped.reserve(pixels.size());
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.get());
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
-    for (std::size_t y = static_cast<std::size_t>(height); y-- > 0;) {
-      const auto from = pixels.begin() + static_cast<std::ptrdiff_t>(y * row);
-      flipped.insert(flipped.end(), from, from + static_cast<std::ptrdiff_t>(row));
-    }
-    return flipped;
-  }
+  std::vector<std::uint8_t> read() const { return readBackBytes(framebuffer.get(), width, height); }
 
   int width, height;
   GlTexture color;

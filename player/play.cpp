@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "base/image_file.h"
 #include "base/log.h"
+#include "base/units.h"
 #include "dlm/dlm_reader.h"
 #include "player/display_pass.h"
 #include "player/eye_adaptation.h"
@@ -54,10 +55,27 @@ class Session {
   }
 
   PlayReport run() {
+    try {
+      drawFrames();
+    } catch (const std::exception& error) {
+      if (control_ && !options_.record.empty()) logWarning(std::string("ended by an error: ") + error.what());
+      keepRecording();  // should this fail too, it is the later error that main tells
+      throw;
+    }
+    keepRecording();
+    throwOnComplaint(window_.messages(), "drawing");
+    return finish();
+  }
+
+ private:
+  bool isBenchmark() const { return !options_.benchmark.empty(); }
+
+  void drawFrames() {
     Clock::time_point last = Clock::now();
     double step = 0;
     while (!window_.closing()) {
       window_.poll(window_.isMinimised() ? kMinimisedWait : 0);
+      if (options_.ended && options_.ended()) window_.close();
       handleKeys();
       keepLoaded();
       const WalkInput input = window_.takeWalk();
@@ -69,12 +87,7 @@ class Session {
       noteSeconds_ -= step;
       countFrame(step, input.moving());
     }
-    throwOnComplaint(window_.messages(), "drawing");
-    return finish();
   }
-
- private:
-  bool isBenchmark() const { return !options_.benchmark.empty(); }
 
   void startLoading() {
     loader_ = std::make_unique<SceneLoader>(window_, request_);
@@ -300,26 +313,23 @@ class Session {
     logInfo("wrote " + base + ".png and .exr");
   }
 
-  void saveWindow(const std::filesystem::path& path, Window::Size size) const {
-    const auto row = static_cast<std::size_t>(size.width) * 3, height = static_cast<std::size_t>(size.height);
-    std::vector<std::uint8_t> pixels(row * height), flipped;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-    glReadBuffer(GL_BACK);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
-    for (std::size_t y = height; y-- > 0;) {
-      const auto from = pixels.begin() + static_cast<std::ptrdiff_t>(y * row);
-      flipped.insert(flipped.end(), from, from + static_cast<std::ptrdiff_t>(row));
-    }
-    writePng(path, size.width, size.height, flipped);
+  static void saveWindow(const std::filesystem::path& path, Window::Size size) {
+    writePng(path, size.width, size.height, readBackBytes(0, size.width, size.height));
+  }
+
+  void keepRecording() {
+    if (!control_ || options_.record.empty()) return;
+    const WalkPath walk = control_->takeRecording();
+    writeFileAtomically(options_.record, textOf(walk));
+    logInfo("wrote " + options_.record.string() + ": a walk of " + formatDuration(walk.seconds()));
   }
 
   PlayReport finish() {
     PlayReport report{frame_, seconds_, {}};
     if (shown_) report.stats = shown_->renderer.stats();
     report.stats.driver = driver_;
-    if (control_ && !options_.record.empty()) writeFileAtomically(options_.record, textOf(control_->takeRecording()));
-    if (control_ && isBenchmark()) writeBenchmark(report.stats);
+    const bool interrupted = options_.ended && options_.ended();  // then the frames are not those of the whole path
+    if (control_ && isBenchmark() && !interrupted) writeBenchmark(report.stats);
     return report;
   }
 

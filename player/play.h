@@ -31,6 +31,7 @@ struct PlayOptions {
   std::filesystem::path benchmark;   // not empty: replays without waiting for the display, reports there, and ends
   double fps = 30;                   // of the benchmark: frames a second of the path
   bool watch = false;                // loads the maps again when they have been replaced
+  std::function<bool()> ended;       // asked once a frame: true ends the session as closing the window does
 };
 
 /// How the session went.
@@ -41,8 +42,9 @@ struct PlayReport {
 };
 
 /// Runs until the window is closed. The maps are loaded while the window is there already, and again with the key R;
-/// maps that cannot be loaded again leave the old ones shown. Error(failed) without a display or OpenGL 4.5,
-/// Error(usage) for an unknown camera, those of readDlm() and readWalkPath().
+/// maps that cannot be loaded again leave the old ones shown. The recording is written however the session ends, by an
+/// error too. Error(failed) without a display or OpenGL 4.5, Error(usage) for an unknown camera, those of readDlm() and
+/// readWalkPath().
 PlayReport play(const std::filesystem::path& dlm, const PlayOptions& options);
 
 }  // namespace lucarne

@@ -19,4 +19,19 @@ ImageRgb readBack(const FrameTarget& target) {
   return image;
 }
 
+std::vector<std::uint8_t> readBackBytes(GLuint framebuffer, int width, int height) {
+  const auto row = static_cast<std::size_t>(width) * 3;
+  std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height)), flipped;
+  flipped.reserve(pixels.size());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  if (framebuffer == 0) glReadBuffer(GL_BACK);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+  for (std::size_t y = static_cast<std::size_t>(height); y-- > 0;) {
+    const auto from = pixels.begin() + static_cast<std::ptrdiff_t>(y * row);
+    flipped.insert(flipped.end(), from, from + static_cast<std::ptrdiff_t>(row));
+  }
+  return flipped;
+}
+
 }  // namespace lucarne

@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/interrupts.h"
 #include "cli/layout_options.h"
 #include "cli/view/render_arguments.h"
 
@@ -18,6 +19,16 @@ void applyScale(const std::string& scale, PlayOptions& options) {
   if (std::sscanf(scale.c_str(), "%lf%c", &options.renderScale, &rest) != 1 || !(options.renderScale >= 0.1) ||
       !(options.renderScale <= 1))
     throw UsageError("--scale must be auto or a number from 0.1 to 1, not '" + scale + "'");
+}
+
+/// A signal closes the window, so that the walk is kept and the last frame saved.
+PlayReport walkUntilEnded(const std::string& dlm, PlayOptions options, const BakeOptions& sky) {
+  Interrupts interrupts(options.record.empty() ? "the window is closed" : "the walk is being saved");
+  const JobControl control = interrupts.control();
+  options.ended = control.stop;
+  const PlayReport report = walk(dlm, options, sky);
+  if (control.stop()) throw Error(ExitCode::interrupted, "interrupted");
+  return report;
 }
 
 }  // namespace
@@ -63,7 +74,7 @@ void addPlay(CLI::App& app, Action& action) {
       applySize(*size, options->render);
       applyScale(*scale, *options);
       finishSky(*sky, *environment);
-      const PlayReport report = walk(*dlm, *options, *sky);
+      const PlayReport report = walkUntilEnded(*dlm, *options, *sky);
       logInfo(std::to_string(report.frames) + " frames in " + formatDuration(report.seconds));
     };
   });

@@ -1,4 +1,4 @@
-// play, in a real window: keys, mouse, size, maps that change; and where there is no window to be had.
+// play, in a real window: keys, mouse, size, its end, maps that change; and where there is no window to be had.
 #include "tests/cli/display.h"
 
 namespace lucarne {
@@ -75,6 +75,42 @@ TEST_F(Play, WalksLooksAndKeepsARecord) {
   EXPECT_GT(std::hypot(a[0].get<double>() - b[0].get<double>(), a[2].get<double>() - b[2].get<double>()), 0.05);
   EXPECT_LT(b[3].get<double>(), a[3].get<double>() - 3) << "turned to the right";
   EXPECT_TRUE(exists("last.png"));
+}
+
+TEST_F(Play, KeepsTheRecordWhenASignalEndsIt) {
+  bake();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    fs::remove(folder_ / "walk.json");
+    open("--record walk.json");
+    const auto first = part();
+    tool("keydown w");
+    EXPECT_TRUE(changesFrom(first)) << log();
+    ::kill(program_->pid(), signal);
+    ASSERT_TRUE(soon([&] { return !program_->running(); })) << log();
+    tool("keyup w");
+    EXPECT_EQ(program_->exitCode(), 130) << log();
+    EXPECT_GT(json("walk.json")["poses"].size(), 10u) << log();
+    for (const auto& entry : fs::directory_iterator(folder_))
+      EXPECT_EQ(entry.path().filename().string().find("walk.json."), std::string::npos) << "nothing is left aside";
+  }
+}
+
+TEST_F(Play, KeepsTheRecordWhenAnotherFileCannotBeWritten) {
+  bake();
+  fs::create_directory(folder_ / "pictures");
+  open("--record again.json --screenshot pictures/last.png");
+  fs::remove(folder_ / "pictures");
+  EXPECT_EQ(quit(), 1) << log();
+  EXPECT_GT(json("again.json")["poses"].size(), 10u) << log();
+}
+
+TEST_F(Play, EndsAtASignalWhileItLoads) {
+  bake();
+  start("play room.dlm --size 480x240 --record walk.json");
+  ASSERT_TRUE(findWindow("Lucarne: room.dlm")) << log();
+  ::kill(program_->pid(), SIGTERM);
+  ASSERT_TRUE(soon([&] { return !program_->running(); })) << log();
+  EXPECT_EQ(program_->exitCode(), 130) << log();
 }
 
 TEST_F(Play, TakesAnySizeAndBeingHidden) {
