@@ -81,7 +81,7 @@ WindowSize sizeOf(const IMATH_NAMESPACE::Box2i& window) {
 }
 
 void withExr(const std::filesystem::path& path, ExrTiles tiles,
-             const std::function<void(imf::MultiPartInputFile&, std::uint64_t fileBytes)>& use) {
+             const std::function<void(imf::MultiPartInputFile&, const InputFile& file)>& use) {
   const InputFile file(path);
   const std::string name = path.string();
   try {
@@ -90,7 +90,7 @@ void withExr(const std::filesystem::path& path, ExrTiles tiles,
     // No reconstruction of a missing table of offsets: an unfinished file is an error here.
     imf::MultiPartInputFile input(stream, 0, false);
     checkSizes(name, input, tiles, file.size());
-    use(input, file.size());
+    use(input, file);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {

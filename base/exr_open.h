@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "base/exr_header_scan.h"
+#include "base/input_file.h"
 
 namespace lucarne {
 
@@ -24,6 +25,6 @@ WindowSize sizeOf(const IMATH_NAMESPACE::Box2i& window);
 /// and what decoding all of them takes is believable for the file's length (checkImageSize). The library's exceptions
 /// become InputErrors that name the file.
 void withExr(const std::filesystem::path& path, ExrTiles tiles,
-             const std::function<void(OPENEXR_IMF_NAMESPACE::MultiPartInputFile&, std::uint64_t fileBytes)>& use);
+             const std::function<void(OPENEXR_IMF_NAMESPACE::MultiPartInputFile&, const InputFile& file)>& use);
 
 }  // namespace lucarne

@@ -67,10 +67,10 @@ ImageRgb placed(const ImageRgb& data, const Window& dataWindow, const Window& di
 ImageRgb readExrRgb(const std::filesystem::path& path) {
   ImageRgb image;
   const std::string name = path.string();
-  withExr(path, ExrTiles::read, [&](imf::MultiPartInputFile& input, std::uint64_t fileBytes) {
+  withExr(path, ExrTiles::read, [&](imf::MultiPartInputFile& input, const InputFile& file) {
     const Window data = input.header(0).dataWindow(), display = input.header(0).displayWindow();
     const WindowSize size = sizeOf(display);
-    checkImageSize(name, size.width, size.height, sizeof(Rgb), fileBytes);
+    checkImageSize(name, size.width, size.height, sizeof(Rgb), file.size());
     image = readDataWindow(name, input);
     if (data != display) image = placed(image, data, display);
   });

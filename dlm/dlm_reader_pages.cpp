@@ -4,8 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
+#include "base/exr_layers.h"
+#include "base/huge_advice.h"
 #include "base/image_file.h"
 #include "dlm/direction_set_cells.h"
 #include "dlm/mean_direction.h"
@@ -18,7 +23,9 @@ namespace {
 // The layers of one file, asked for by name.
 class LayerFile {
  public:
-  explicit LayerFile(const std::filesystem::path& path) : name_(path.string()), layers_(readExr(path)) {}
+  explicit LayerFile(const std::filesystem::path& path) : LayerFile(path, readExr(path)) {}
+  LayerFile(const std::filesystem::path& path, std::vector<ExrLayer> layers)
+      : name_(path.string()), layers_(std::move(layers)) {}
 
   [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
@@ -31,6 +38,7 @@ class LayerFile {
     }
     return *found;
   }
+  std::size_t indexOf(const ExrLayer& layer) const { return static_cast<std::size_t>(&layer - layers_.data()); }
 
   const std::vector<float>& values(const ExrLayer& layer, const char* channel) const {
     const ExrChannel* found = layer.find(channel);
@@ -150,65 +158,115 @@ class PageReader {
   const std::vector<std::uint32_t>* codes_ = nullptr;
 };
 
-/// Calls use(side, direction, place, number) for every stored map, in order.
-template <class Use>
-void forStoredMaps(const LightMaps& maps, const DirectionalPages& pages, Use&& use) {
+/// A map on its page.
+struct PlacedMap {
+  std::uint64_t first;  // into LightMaps::directional
+  std::uint16_t psi;
+  int x, y, width, height;
+  float scale;  // of ldr8
+};
+
+/// By page.
+std::vector<std::vector<PlacedMap>> mapsByPage(const LightMaps& maps, const DirectionalPages& pages) {
+  std::vector<std::vector<PlacedMap>> placed(pages.layers.size());
+  const std::int64_t pageTexels = std::int64_t{pages.width} * pages.height;
   std::size_t k = 0, stored = 0;
   for (const SideMaps& side : maps.sides) {
     for (const SideDirection& direction : side.directions) {
       const std::int64_t place = pages.places[k++];
-      if (place != DirectionalPages::kNotStored) use(side, direction, place, stored++);
+      if (place == DirectionalPages::kNotStored) continue;
+      const float scale = pages.mapScales.empty() ? 1.f : pages.mapScales[stored];
+      ++stored;
+      placed[static_cast<std::size_t>(place / pageTexels)].push_back(
+          {direction.first, direction.psi, static_cast<int>(place % pages.width), static_cast<int>(place / pages.width % pages.height),
+           side.width, side.height, scale});
     }
   }
+  return placed;
 }
 
-/// Calls use(texel, pixel) for every texel of the map at a place.
-template <class Use>
-void forMap(const SideMaps& side, std::int64_t place, const DirectionalPages& pages, Use&& use) {
-  forEachTexel(static_cast<int>(place % pages.width), static_cast<int>(place / pages.width % pages.height), side.width,
-               side.height, pages.width, use);
+void readPage(const LayerFile& file, const ExrLayer& layer, const DirectionalPages& pages,
+              const std::vector<PlacedMap>& placed, std::vector<Rgb>& texels) {
+  const PageReader page(file, layer, pages);
+  bool finite = true;
+  for (const PlacedMap& map : placed) {
+    forEachTexel(map.x, map.y, map.width, map.height, pages.width, [&](std::size_t texel, std::size_t pixel) {
+      const Rgb value = page.at(pixel, map.scale);
+      finite = finite && isFinite(value);
+      texels[map.first + texel] = value;
+    });
+  }
+  if (!finite) file.fail("its values times the scale of the manifest are not finite");
+}
+
+struct PageUse {
+  /// A page's layer without its values, before any is read.
+  std::function<void(const LayerFile&, const ExrLayer&)> check;
+  /// When all layers are seen and the number of texels is to be believed.
+  std::function<void()> reserve;
+  /// A layer with its values and the maps on it; from several threads at once.
+  std::function<void(const LayerFile&, const ExrLayer&, const std::vector<PlacedMap>&)> read;
+};
+
+void readLayers(const std::filesystem::path& path, const DirectionalPages& pages,
+                const std::vector<std::vector<PlacedMap>>& byPage, const PageUse& of) {
+  std::optional<LayerFile> file;
+  std::vector<std::vector<PlacedMap>> byLayer;
+  ExrLayerUse use;
+  use.choose = [&](const std::vector<ExrLayer>& heads) {
+    file.emplace(path, heads);
+    byLayer.resize(heads.size());
+    for (std::size_t p = 0; p < pages.layers.size(); ++p) {
+      const ExrLayer& layer = file->layer(pages.layers[p], pages.width, pages.height);
+      of.check(*file, layer);
+      std::vector<PlacedMap>& onLayer = byLayer[file->indexOf(layer)];
+      onLayer.insert(onLayer.end(), byPage[p].begin(), byPage[p].end());
+    }
+    of.reserve();
+    std::vector<bool> wanted;
+    for (const auto& onLayer : byLayer) wanted.push_back(!onLayer.empty());
+    return wanted;
+  };
+  use.take = [&](std::size_t i, const ExrLayer& layer) { of.read(*file, layer, byLayer[i]); };
+  readExrLayers(path, use);
 }
 
 void readMeans(const std::filesystem::path& path, const ManifestContents& contents, LightMaps& maps) {
   const DirectionalPages& pages = contents.pages.directional;
-  const LayerFile file(path);
-  std::vector<const std::vector<std::uint32_t>*> layers;
-  for (const std::string& name : pages.layers)
-    layers.push_back(&file.codes(file.layer(name, pages.width, pages.height), dlm_file::kMeanChannel));
   const std::vector<Vec3d> psis = spreadDirections(maps.directionCount);
   const float reach = meanReach(maps.directionCount);
-  maps.meanDirections.resize(contents.directionalCount);
-  const std::int64_t pageTexels = std::int64_t{pages.width} * pages.height;
-  forStoredMaps(maps, pages, [&](const SideMaps& side, const SideDirection& d, std::int64_t place, std::size_t) {
-    const std::vector<std::uint32_t>& codes = *layers[static_cast<std::size_t>(place / pageTexels)];
-    const Vec3f psi(psis[d.psi]);
-    forMap(side, place, pages, [&](std::size_t texel, std::size_t pixel) {
-      if (!isMeanCode(codes[pixel])) file.fail("holds a number that is no mean direction");
-      maps.meanDirections[d.first + texel] = unpackMean(codes[pixel], psi, reach);
-    });
-  });
+  PageUse use;
+  use.check = [](const LayerFile& file, const ExrLayer& layer) { file.codes(layer, dlm_file::kMeanChannel); };
+  use.reserve = [&] { maps.meanDirections.resize(contents.directionalCount); };
+  use.read = [&](const LayerFile& file, const ExrLayer& layer, const std::vector<PlacedMap>& placed) {
+    const std::vector<std::uint32_t>& codes = file.codes(layer, dlm_file::kMeanChannel);
+    for (const PlacedMap& map : placed) {
+      const Vec3f psi(psis[map.psi]);
+      forEachTexel(map.x, map.y, map.width, map.height, pages.width, [&](std::size_t texel, std::size_t pixel) {
+        if (!isMeanCode(codes[pixel])) file.fail("holds a number that is no mean direction");
+        maps.meanDirections[map.first + texel] = unpackMean(codes[pixel], psi, reach);
+      });
+    }
+  };
+  readLayers(path, pages, mapsByPage(maps, pages), use);
 }
 
 void readDirectional(const std::filesystem::path& path, const ManifestContents& contents, LightMaps& maps) {
   const DirectionalPages& pages = contents.pages.directional;
-  const LayerFile file(path);
-  std::vector<PageReader> layers;
-  for (const std::string& name : pages.layers) {
-    const ExrLayer& layer = file.layer(name, pages.width, pages.height);
+  PageUse use;
+  use.check = [&](const LayerFile& file, const ExrLayer& layer) {
     checkScale(file, layer, pages.scale);
-    layers.emplace_back(file, layer, pages);
-  }
-  maps.directional.resize(contents.directionalCount);
-  const std::int64_t pageTexels = std::int64_t{pages.width} * pages.height;
-  forStoredMaps(maps, pages, [&](const SideMaps& side, const SideDirection& d, std::int64_t place, std::size_t stored) {
-    const PageReader& page = layers[static_cast<std::size_t>(place / pageTexels)];
-    const float mapScale = pages.mapScales.empty() ? 1.f : pages.mapScales[stored];
-    forMap(side, place, pages, [&](std::size_t texel, std::size_t pixel) {
-      Rgb& value = maps.directional[d.first + texel];
-      value = page.at(pixel, mapScale);
-      if (!isFinite(value)) file.fail("its values times the scale of the manifest are not finite");
-    });
-  });
+    const PageReader hasItsChannels(file, layer, pages);
+  };
+  use.reserve = [&] {
+    maps.directional.reserve(contents.directionalCount);
+    askForHugePages(maps.directional.data(), contents.directionalCount * sizeof(Rgb));
+    maps.directional.resize(contents.directionalCount);
+  };
+  use.read = [&](const LayerFile& file, const ExrLayer& layer, const std::vector<PlacedMap>& placed) {
+    readPage(file, layer, pages, placed, maps.directional);
+  };
+  readLayers(path, pages, mapsByPage(maps, pages), use);
 }
 
 }  // namespace

@@ -58,6 +58,10 @@ std::string textOf(const Benchmark& b) {
   json["sorted"] = jsonOf(b.stats.counts);
   json["unsorted"] = jsonOf(b.stats.unsorted);
   json["load_seconds"] = b.loadSeconds;
+  if (!b.loadingSeconds.empty()) {
+    json["shown_seconds"] = b.shownSeconds;
+    json["loading_frame_ms"] = jsonOf(spreadOf(b.loadingSeconds));
+  }
   json["peak_memory_bytes"] = peakMemoryBytes();
   json["gl_bytes"] = b.glBytes;
   json["light_map_bytes"] = b.stats.lightMapBytes;

@@ -25,6 +25,8 @@ struct Benchmark {
   RenderOptions options;
   RenderStats stats;  // of the last frame
   double loadSeconds = 0;
+  double shownSeconds = 0;              // from the start to the first picture; 0: not of a window
+  std::vector<double> loadingSeconds;   // of the window's frames until then, that picture's included
   std::uint64_t glBytes = 0;  // textures, and what frames are drawn into
 };
 

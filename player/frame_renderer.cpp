@@ -131,8 +131,30 @@ MapRenderer& FrameRenderer::rendererFor(const View& view, RendererKind renderer)
 }
 
 void FrameRenderer::draw(const FrameView& view, RendererKind renderer, const FrameTarget& target) {
-  constexpr GLfloat kBlack[4] = {};
   MapRenderer& shading = rendererFor(view.view, renderer);
+  const auto visible =
+      visibleRuns(Frustum(view.camera, static_cast<double>(target.width) / target.height), scene_.list.runs);
+  drawRuns(view, shading, visible, target);
+  stats_.counts = state_.counts();
+  stats_.unsorted = shading.unsorted({scene_, maps_, programs_, visible});
+  ++stats_.unsorted.draws;
+  stats_.charts = visible.size();
+  stats_.visibleCharts = static_cast<std::uint64_t>(std::count(visible.begin(), visible.end(), 1));
+}
+
+void FrameRenderer::warmUp(RendererKind renderer, const View& view) {
+  FrameView small;
+  small.camera.yfov = 1;
+  small.view = view;
+  constexpr int kSide = 17;  // no power of two, like most windows: llvmpipe compiles for those apart
+  const FrameTarget target(kSide, kSide, scaleOf(view.kind) == ViewScale::number);
+  drawRuns(small, rendererFor(view, renderer), std::vector<std::uint8_t>(scene_.list.runs.size(), 1), target);
+  scene_.forgetLayout();
+}
+
+void FrameRenderer::drawRuns(const FrameView& view, MapRenderer& shading, const std::vector<std::uint8_t>& visible,
+                             const FrameTarget& target) {
+  constexpr GLfloat kBlack[4] = {};
   setFixedState(target);
   uploadCamera(view, target);
   bindCommon(target);
@@ -140,18 +162,11 @@ void FrameRenderer::draw(const FrameView& view, RendererKind renderer, const Fra
   state_.reset();
   state_.setView(view.view, maps_.wordsPerSide);
   const bool full = view.view.kind == ViewKind::full;
-  const auto visible =
-      visibleRuns(Frustum(view.camera, static_cast<double>(target.width) / target.height), scene_.list.runs);
   const DrawContext context{scene_, maps_, programs_, visible};
   prepass(context, target, !full);
   shading.shade(context, target, state_);
   if (full) drawBehindAndBefore(context, view.camera.position, target);
   glDepthMask(GL_TRUE);
-  stats_.counts = state_.counts();
-  stats_.unsorted = shading.unsorted(context);
-  ++stats_.unsorted.draws;
-  stats_.charts = visible.size();
-  stats_.visibleCharts = static_cast<std::uint64_t>(std::count(visible.begin(), visible.end(), 1));
 }
 
 /// The sky where there is nothing, then what is seen through.

@@ -27,6 +27,10 @@ class FrameRenderer {
   /// is.
   void draw(const FrameView& view, RendererKind renderer, const FrameTarget& target);
 
+  /// Draws everything once, out of sight, so that the driver has compiled what frames with that renderer and view need.
+  /// May be called in another context than the one that draws later, if both share their objects.
+  void warmUp(RendererKind renderer, const View& view);
+
   /// Shown where there is no surface, instead of black; equirectangular, cd/m² (sky_pass.h).
   void setSky(const ImageRgb& image);
 
@@ -40,6 +44,8 @@ class FrameRenderer {
  private:
   void uploadCamera(const FrameView& view, const FrameTarget& target) const;
   void prepass(const DrawContext& context, const FrameTarget& target, bool withClear);
+  void drawRuns(const FrameView& view, MapRenderer& shading, const std::vector<std::uint8_t>& visible,
+                const FrameTarget& target);
   void drawBehindAndBefore(const DrawContext& context, Vec3d eye, const FrameTarget& target);
   MapRenderer& rendererFor(const View& view, RendererKind renderer);
   void bindCommon(const FrameTarget& target);

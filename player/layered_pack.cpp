@@ -3,6 +3,7 @@
 #include <stb/stb_rect_pack.h>
 
 #include <algorithm>
+#include <deque>
 #include <numeric>
 #include <optional>
 
@@ -11,27 +12,30 @@
 namespace lucarne {
 namespace {
 
-/// One page being filled from the top left.
+constexpr std::size_t kOpenPages = 64;  // so many of the last ones are tried: all, but in huge scenes
+
+/// One page being filled from the top left, as deep as the first rectangle that it was made for.
 class Page {
  public:
-  Page(int width, int height) : nodes_(static_cast<std::size_t>(width)) {
+  Page(int width, int height, int firstLayer) : nodes_(static_cast<std::size_t>(width)), firstLayer_(firstLayer) {
     stbrp_init_target(&context_, width, height, nodes_.data(), width);
   }
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
 
-  std::optional<LayeredPlace> add(const LayeredRect& rect, int layer) {
+  std::optional<LayeredPlace> add(const LayeredRect& rect) {
     stbrp_rect r{};
     r.w = rect.width;
     r.h = rect.height;
     stbrp_pack_rects(&context_, &r, 1);
     if (r.was_packed == 0) return std::nullopt;
-    return LayeredPlace{static_cast<int>(r.x), static_cast<int>(r.y), layer};
+    return LayeredPlace{static_cast<int>(r.x), static_cast<int>(r.y), firstLayer_};
   }
 
  private:
   stbrp_context context_{};
   std::vector<stbrp_node> nodes_;
+  int firstLayer_;
 };
 
 /// Deepest first, so that each page is as deep as its first rectangle; then tallest, as skyline packing likes it.
@@ -49,16 +53,16 @@ std::vector<std::size_t> packingOrder(const std::vector<LayeredRect>& rects) {
 std::optional<LayeredPacking> packInto(const std::vector<LayeredRect>& rects, const std::vector<std::size_t>& order,
                                        int width, int height, int maxLayers) {
   LayeredPacking packing{width, height, 0, std::vector<LayeredPlace>(rects.size())};
-  std::optional<Page> page;
-  int first = 0;
+  std::deque<Page> pages;  // the shallowest last; all are as deep as what is still to come
   for (const std::size_t i : order) {
-    std::optional<LayeredPlace> place = page ? page->add(rects[i], first) : std::nullopt;
+    std::optional<LayeredPlace> place;
+    for (auto page = pages.rbegin(); page != pages.rend() && !place; ++page) place = page->add(rects[i]);
     if (!place) {
-      first = packing.layers;
+      pages.emplace_back(width, height, packing.layers);
+      if (pages.size() > kOpenPages) pages.pop_front();
       packing.layers += rects[i].layers;
       if (packing.layers > maxLayers) return std::nullopt;
-      page.emplace(width, height);
-      place = page->add(rects[i], first);
+      place = pages.back().add(rects[i]);
       if (!place) return std::nullopt;
     }
     packing.places[i] = *place;
@@ -79,7 +83,7 @@ std::optional<LayeredPacking> smallestPacking(const std::vector<LayeredRect>& re
   const int minWidth = powerOfTwoFrom(largest.width), minHeight = powerOfTwoFrom(largest.height);
   std::optional<LayeredPacking> best;
   for (int size = std::max(minWidth, minHeight); size <= limits.size; size *= 2) {
-    for (const int height : {std::max(size / 2, minHeight), size}) {
+    for (int height = std::max(size / 8, minHeight); height <= size; height *= 2) {
       std::optional<LayeredPacking> candidate = packInto(rects, order, size, height, limits.layers);
       if (candidate && (!best || candidate->texels() < best->texels())) best = std::move(candidate);
     }

@@ -1,8 +1,11 @@
 #include "player/map_upload.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cstring>
-#include <functional>
+#include <span>
 
 #include "base/error.h"
 #include "dlm/mean_direction.h"
@@ -19,27 +22,32 @@ struct PixelCoding {
 
 /// How a texel of the directional maps is stored.
 struct TexelCoding : PixelCoding {
-  std::function<void(Rgb value, std::byte* to)> write;
+  void (*writeRow)(std::span<const Rgb> values, float scale, std::byte* to);
 };
 
-template <class T>
-void store(const T& value, std::byte* to) {
-  std::memcpy(to, &value, sizeof value);
+/// Each value times the scale, as `code` makes it.
+template <auto code>
+void writeCoded(std::span<const Rgb> values, float scale, std::byte* to) {
+  for (const Rgb& value : values) {
+    const auto texel = code(value * scale);
+    std::memcpy(to, &texel, sizeof texel);
+    to += sizeof texel;
+  }
 }
 
 TexelCoding codingOf(LightMapFormat format) {
+  constexpr auto asHalf = [](Rgb v) {
+    return std::array<std::uint16_t, 4>{packHalf(v.x), packHalf(v.y), packHalf(v.z), 0};
+  };
   switch (format) {
     case LightMapFormat::float32:
-      return {{GL_RGBA32F, GL_RGB, GL_FLOAT, 12}, [](Rgb v, std::byte* to) { store(v, to); }};
+      return {{GL_RGBA32F, GL_RGB, GL_FLOAT, 12}, writeCoded<[](Rgb v) { return v; }>};
     case LightMapFormat::rgb9e5:
-      return {{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4},
-              [](Rgb v, std::byte* to) { store(packRgb9e5(v), to); }};
+      return {{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4}, writeCoded<packRgb9e5>};
     case LightMapFormat::half:
       break;
   }
-  return {{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8}, [](Rgb v, std::byte* to) {
-            store(std::array<std::uint16_t, 4>{packHalf(v.x), packHalf(v.y), packHalf(v.z), 0}, to);
-          }};
+  return {{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8}, writeCoded<asHalf>};
 }
 
 /// A rectangle of one layer: the texels of one ψ of one side.
@@ -70,43 +78,61 @@ std::vector<std::vector<Rectangle>> rectanglesByLayer(const LightMaps& maps, con
   return layers;
 }
 
-/// `write(rectangle, texel, to)` stores a texel of the light maps.
-template <class Write>
-GlTexture uploadPages(const LightMaps& maps, const MapTables& tables, const PixelCoding& coding, const Write& write) {
+/// The rectangles of a layer, coded, where they lie in it; the rest is zero. `codeRow(rectangle, first texel, to)` codes a
+/// row.
+template <class CodeRow>
+void codeLayer(const std::vector<Rectangle>& rectangles, std::size_t texelBytes, const CodeRow& codeRow, std::size_t pitch,
+               std::span<std::byte> layer) {
+  std::fill(layer.begin(), layer.end(), std::byte{0});
+  for (const Rectangle& r : rectangles) {
+    const auto width = static_cast<std::size_t>(r.width);
+    for (int y = 0; y < r.height; ++y) {
+      std::byte* to = layer.data() + static_cast<std::size_t>(r.place.y + y) * pitch +
+                      static_cast<std::size_t>(r.place.x) * texelBytes;
+      codeRow(r, r.first + static_cast<std::size_t>(y) * width, to);
+    }
+  }
+}
+
+/// Slice by slice: the layers of one are coded by all threads, then sent. `codeRow(rectangle, first texel, to)`.
+template <class CodeRow>
+GlTexture uploadPages(const LightMaps& maps, const MapTables& tables, const PixelCoding& coding, const CodeRow& codeRow) {
+  constexpr std::size_t kSliceBytes = std::size_t{32} << 20;
   const LayeredPacking& packing = tables.directional;
   GlTexture texture =
       makeTexture({GL_TEXTURE_2D_ARRAY, coding.internal, 1, packing.width, packing.height, packing.layers});
-  const auto pitch = static_cast<std::size_t>(packing.width) * coding.bytes;
-  std::vector<std::byte> page(pitch * static_cast<std::size_t>(packing.height));
+  const std::size_t pitch = static_cast<std::size_t>(packing.width) * coding.bytes;
+  const std::size_t layerBytes = pitch * static_cast<std::size_t>(packing.height);
   const auto layers = rectanglesByLayer(maps, tables);
-  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-    std::fill(page.begin(), page.end(), std::byte{0});
-    for (const Rectangle& r : layers[layer]) {
-      std::uint64_t from = r.first;
-      for (int y = 0; y < r.height; ++y) {
-        std::byte* to = page.data() + static_cast<std::size_t>(r.place.y + y) * pitch +
-                        static_cast<std::size_t>(r.place.x) * coding.bytes;
-        for (int x = 0; x < r.width; ++x, ++from, to += coding.bytes) write(r, from, to);
-      }
-    }
-    glTextureSubImage3D(texture.get(), 0, 0, 0, static_cast<GLint>(layer), packing.width, packing.height, 1,
-                        coding.layout, coding.type, page.data());
+  const std::size_t perSlice = std::clamp(kSliceBytes / layerBytes, std::size_t{1}, layers.size());
+  std::vector<std::byte> slice(layerBytes * perSlice);
+  for (std::size_t first = 0; first < layers.size(); first += perSlice) {
+    const std::size_t count = std::min(perSlice, layers.size() - first);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      codeLayer(layers[first + i], coding.bytes, codeRow, pitch, std::span(slice).subspan(i * layerBytes, layerBytes));
+    });
+    glTextureSubImage3D(texture.get(), 0, 0, 0, static_cast<GLint>(first), packing.width, packing.height,
+                        static_cast<GLsizei>(count), coding.layout, coding.type, slice.data());
   }
   return texture;
 }
 
 GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, LightMapFormat format, float scale) {
   const TexelCoding coding = codingOf(format);
-  return uploadPages(maps, tables, coding, [&](const Rectangle&, std::uint64_t texel, std::byte* to) {
-    coding.write(maps.directional[texel] * scale, to);
+  return uploadPages(maps, tables, coding, [&](const Rectangle& r, std::uint64_t first, std::byte* to) {
+    coding.writeRow({&maps.directional[first], static_cast<std::size_t>(r.width)}, scale, to);
   });
 }
 
 GlTexture uploadMeans(const LightMaps& maps, const MapTables& tables, const DirectionSet& set) {
   const float reach = meanReach(maps.directionCount);
   const PixelCoding coding{GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, kMeanBytes};
-  return uploadPages(maps, tables, coding, [&](const Rectangle& r, std::uint64_t texel, std::byte* to) {
-    store(packMean(maps.meanDirections[texel], Vec3f(set.direction(r.psi)), reach), to);
+  return uploadPages(maps, tables, coding, [&](const Rectangle& r, std::uint64_t first, std::byte* to) {
+    const Vec3f psi(set.direction(r.psi));
+    for (std::size_t x = 0; x < static_cast<std::size_t>(r.width); ++x, to += kMeanBytes) {
+      const std::uint32_t code = packMean(maps.meanDirections[first + x], psi, reach);
+      std::memcpy(to, &code, sizeof code);
+    }
   });
 }
 

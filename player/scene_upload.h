@@ -13,6 +13,8 @@ struct GpuScene {
 
   /// The layout of `vertices`. Contexts share all objects but this: it belongs to the one in which it is first asked for.
   GLuint layout();
+  /// Another context is to draw from now on.
+  void forgetLayout() { layout_ = {}; }
 
   DrawList list;  // `vertices` is emptied after the upload
   SceneTextures textures;

@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kReading = 0.7, kSorting = 0.75;  // shares of the whole
+constexpr double kReading = 0.7, kSorting = 0.75, kCompiling = 0.95;  // shares of the whole
 
 double photonsOf(const nlohmann::json& manifest) {
   const auto found = manifest.find("photons");
@@ -38,8 +38,10 @@ std::unique_ptr<ShownScene> loadScene(const SceneRequest& request, const LoadObs
   observe("sending the maps to the GPU", kSorting);
   MapFit fit = fitMaps(dlm.maps, request.format, request.gpuMemory > 0 ? request.gpuMemory : freeGpuMemory(), textureLimits());
   FrameRenderer renderer(dlm.scene, fit.fewer ? *fit.fewer : dlm.maps, fit.format, windowScale(dlm.scene, dlm.maps), request.lobe);
-  glFinish();
   fit.fewer.reset();  // they are on the GPU
+  observe("compiling the shaders", kCompiling);
+  renderer.warmUp(request.renderer, request.view);
+  glFinish();
   const double photons = photonsOf(dlm.manifest);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return std::make_unique<ShownScene>(

@@ -29,6 +29,8 @@ struct SceneRequest {
   std::string camera;  // as chooseCamera()
   LightMapFormat format = LightMapFormat::half;
   LobeKind lobe = LobeKind::cell;
+  RendererKind renderer = RendererKind::singlepass;  // it and the view are made ready to be drawn
+  View view{};
   std::uint64_t gpuMemory = 0;  // bytes that the light maps may take there; 0: what is free
 };
 

@@ -32,10 +32,16 @@ TEST(Benchmark, TellsTimesInMillisecondsAndNoGpuTimeThatIsNotTrue) {
   EXPECT_EQ(json["frames"], 3);
   EXPECT_EQ(json["sorted"]["draws"], 7);
   EXPECT_TRUE(json["gpu_ms"].is_null());
+  EXPECT_FALSE(json.contains("shown_seconds")) << "no window was waited for";
   EXPECT_GT(json["peak_memory_bytes"], 0);
   b.gpuSeconds = {0.002};
   json = nlohmann::json::parse(textOf(b));
   EXPECT_DOUBLE_EQ(json["gpu_ms"]["max"], 2);
+  b.shownSeconds = 1.5;
+  b.loadingSeconds = {0.016, 0.2};
+  json = nlohmann::json::parse(textOf(b));
+  EXPECT_DOUBLE_EQ(json["shown_seconds"], 1.5);
+  EXPECT_DOUBLE_EQ(json["loading_frame_ms"]["max"], 200);
   b.frameSeconds.clear();
   EXPECT_EQ(nlohmann::json::parse(textOf(b))["fps"], 0);
 }

@@ -50,6 +50,13 @@ TEST(LayeredPack, WastesLessThanHalfOfAFullLoad) {
   EXPECT_LT(packLayered(rects, {16384, 2048}).texels(), 2 * used);
 }
 
+TEST(LayeredPack, ShallowRectanglesFillWhatDeeperOnesLeft) {
+  const std::vector<LayeredRect> rects = {{100, 128, 10}, {128, 128, 9}, {28, 128, 8}};
+  const LayeredPacking packing = packLayered(rects, {128, 2048});
+  EXPECT_EQ(packing.layers, 19);
+  expectDisjoint(rects, packing);
+}
+
 TEST(LayeredPack, FewLayersMakeLargerPages) {
   const auto rects = mixedRects(300);
   const LayeredPacking packing = packLayered(rects, {16384, 16});
