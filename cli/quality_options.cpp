@@ -7,10 +7,11 @@ namespace lucarne {
 
 void addQualityOptions(CLI::App& cmd, BakeOptions& o, QualityTexts& texts) {
   addLayoutOptions(cmd, o, texts.layout);
-  addChoice<KernelShape>(cmd, "--kernel", o.kernel.shape, kernelShapes(), "pyramid", kKernelHelp);
+  o.kernel.shape = KernelShape::adaptive;
+  addChoice<KernelShape>(cmd, "--kernel", o.kernel.shape, kernelShapes(), "adaptive", kKernelHelp);
   cmd.add_option("--kernel-width", texts.kernelWidth,
                  "distance in texels at which the kernel ends: wider is smoother and blurrier; of adaptive the widest")
-      ->default_str("1.5, of adaptive 4.5");
+      ->default_str("of adaptive 4.5, else 1.5");
   addSeams(cmd, o.seams, "fit");
   cmd.add_option("--drop-error", texts.dropError, kDropHelp)->capture_default_str();
   cmd.add_option("--seed", texts.seed, "another seed gives another, equally good bake")->capture_default_str();

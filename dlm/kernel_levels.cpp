@@ -108,6 +108,10 @@ std::vector<Rgbd> LevelResolver::filterRgb(std::span<const std::int64_t> units) 
 std::vector<double> LevelResolver::filterValues(std::span<const double> values) const {
   return mixed([&](const SideResolver& r) { return r.filterValues(values); });
 }
+
+std::vector<double> LevelResolver::filterDifferences(std::span<const double> values) const {
+  return mixed([&](const SideResolver& r) { return r.filterDifferences(values); });
+}
 std::vector<double> LevelResolver::sumUnderKernel(std::span<const double> values) const {
   return mixed([&](const SideResolver& r) { return r.sumUnderKernel(values); });
 }

@@ -47,6 +47,7 @@ class LevelResolver {
 
   std::vector<Rgbd> filterRgb(std::span<const std::int64_t> units) const;
   std::vector<double> filterValues(std::span<const double> values) const;
+  std::vector<double> filterDifferences(std::span<const double> values) const;
   std::vector<double> sumUnderKernel(std::span<const double> values) const;
   std::vector<Rgbd> filterMeans(std::span<const std::int64_t> means, std::span<const double> area) const;
   std::vector<double> filterSquares(std::span<const double> values) const;

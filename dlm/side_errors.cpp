@@ -96,7 +96,7 @@ SetErrors photonErrors(const SideInput& s, const std::vector<Rgbd>& irradiance) 
   std::vector<double> differences = luminanceUnits(s, s.in.tallies);
   const std::vector<double> odd = channelOf(statistics, kOdd);
   for (std::size_t t = 0; t < odd.size(); ++t) differences[t] = (differences[t] - 2 * odd[t]) * s.scales.photons;
-  differences = s.resolver.filterValues(differences);
+  differences = s.resolver.filterDifferences(differences);
   return {deviationsOf(variances), classesOf(photons),
           measureErrorRatios(differences, variances, photons, overlapOf(s.kernel))};
 }
@@ -131,7 +131,7 @@ SetErrors directErrors(const SideInput& s) {
   for (std::size_t t = 0; t < differences.size(); ++t)
     differences[t] = ((units[t] - differences[t]) / even - differences[t] / odd) * scale * s.area()[t];
   errors.ratios =
-      measureErrorRatios(s.resolver.filterValues(differences), variances, worth, overlapOf(s.kernel));
+      measureErrorRatios(s.resolver.filterDifferences(differences), variances, worth, overlapOf(s.kernel));
   return errors;
 }
 

@@ -174,7 +174,11 @@ std::vector<Rgbd> SideResolver::filterMeans(std::span<const std::int64_t> means,
 }
 
 std::vector<double> SideResolver::filterValues(std::span<const double> values) const {
-  return notNegative(filter<double>(1, [&](std::size_t n, double k) { return k * values[n]; }));
+  return notNegative(filterDifferences(values));
+}
+
+std::vector<double> SideResolver::filterDifferences(std::span<const double> values) const {
+  return filter<double>(1, [&](std::size_t n, double k) { return k * values[n]; });
 }
 
 std::vector<double> SideResolver::sumUnderKernel(std::span<const double> values) const {

@@ -28,6 +28,8 @@ class SideResolver {
   std::vector<Rgbd> filterRgb(std::span<const std::int64_t> units) const;
   /// Per texel: (Σ k·values(t')) / (Σ k·area(t')).
   std::vector<double> filterValues(std::span<const double> values) const;
+  /// The same of differences, which may be negative.
+  std::vector<double> filterDifferences(std::span<const double> values) const;
   /// Per texel: Σ values(t') over the texels that weigh anything.
   std::vector<double> sumUnderKernel(std::span<const double> values) const;
   /// Per texel: (Σ k·means(t')·area(t')) / (Σ k·area(t')) per channel, `area` as given before.

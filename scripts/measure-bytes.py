@@ -34,9 +34,9 @@ def main():
 
         for name, more in ("plain", ["--keep-all-directions"]), ("lean", []):
             run("bake", *scene, "-o", name + ".dlm", "--keep-part", "--photons", options.photons, "--directions", options.directions,
-                "--report", name + ".json", "--quiet", *more)
+                "--kernel", "pyramid", "--report", name + ".json", "--quiet", *more)
         run("bake", *scene, "-o", "truth.dlm", "--keep-all-directions", "--photons", options.many, "--directions",
-            options.directions, "--seed", "7", "--quiet")
+            options.directions, "--kernel", "pyramid", "--seed", "7", "--quiet")
         run("render", "truth.dlm", "-o", "truth.exr", "--size", options.size)
 
         def row(title, dlm, report):

@@ -76,7 +76,7 @@ class Study:
         if not os.path.exists(base + ".dlm"):
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
             self.run("bake", scene, "-o", base + ".dlm", "--directions", str(directions), "--photons", self.o.photons, "--report",
-                     base + ".json", "--quiet", *(["--moments"] if moments else []))
+                     base + ".json", "--kernel", "pyramid", "--quiet", *(["--moments"] if moments else []))
             with open(base + ".seconds", "w") as out:
                 out.write(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before))
         report = json.load(open(base + ".json"))

