@@ -104,7 +104,7 @@ def main():
     table(bench, truth, "Photons", "--photons", ["5M", "20M", "80M"])
     table(bench, truth, "Directions", "--directions", [6, 14, 32, 64])
     table(bench, truth, "Density, texels per metre", "--density", [8, 16, 32])
-    table(bench, truth, "Kernel", "--kernel", ["pyramid", "box", "epanechnikov"])
+    table(bench, truth, "Kernel", "--kernel", ["pyramid", "box", "epanechnikov", "linear", "adaptive"])
     table(bench, truth, "Kernel width, texels", "--kernel-width", [0.5, 1.5, 3])
 
 
