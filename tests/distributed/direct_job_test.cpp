@@ -89,7 +89,7 @@ class DirectJobs : public ::testing::TestWithParam<bool> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Moments, DirectJobs, ::testing::Bool(),
-                         [](const auto& info) { return info.param ? "With" : "Without"; });
+                         [](const auto& with) { return with.param ? "With" : "Without"; });
 
 TEST_P(DirectJobs, AnyNumberOfThreadsGivesTheSameBits) {
   const BakeState one = bakeWhole(1);
@@ -166,6 +166,7 @@ class DirectHeaders : public DirectJobs {
   std::string refusal(const std::function<void(nlohmann::json&)>& change) const {
     BakeState state = bake({0, 100}, {0, 2}, 1);
     state.header.lightEntries = 10;
+    state.header.momentEntries = GetParam() ? 10 : 0;
     nlohmann::json json = toJson(state.header);
     change(json);
     try {
@@ -177,12 +178,17 @@ class DirectHeaders : public DirectJobs {
   }
 };
 
-TEST_F(DirectHeaders, AreReadStrictly) {
+INSTANTIATE_TEST_SUITE_P(Moments, DirectHeaders, ::testing::Bool(),
+                         [](const auto& with) { return with.param ? "With" : "Without"; });
+
+TEST_P(DirectHeaders, AreReadStrictly) {
   EXPECT_EQ(refusal([](nlohmann::json&) {}), "");
   const auto set = [](nlohmann::json& j) -> nlohmann::json& { return j["tally_sets"][1]; };
   EXPECT_NE(refusal([&](nlohmann::json& j) { set(j)["name"] = "third"; }), "");
   EXPECT_NE(refusal([&](nlohmann::json& j) { j["tally_sets"].push_back(set(j)); }), "");
   EXPECT_NE(refusal([&](nlohmann::json& j) { set(j)["normaliser"] = 3; }), "");
+  EXPECT_NE(refusal([&](nlohmann::json& j) { set(j)["moment_entries"] = 3; }), "");
+  EXPECT_NE(refusal([&](nlohmann::json& j) { j["tally_sets"][0]["moment_entries"] = -1; }), "");
   EXPECT_NE(refusal([&](nlohmann::json& j) { set(j)["texels"] = 3; }), "");
   EXPECT_NE(refusal([&](nlohmann::json& j) { set(j)["more"] = 3; }), "");
   EXPECT_NE(refusal([&](nlohmann::json& j) { set(j)["counts"].erase("clamped"); }), "");
@@ -198,9 +204,9 @@ TEST_P(DirectJobs, AnAlteredSecondSetIsRefused) {
   const std::string bytes = test::bytesOf(temp / "a.part");
   ASSERT_EQ(test::refusalOf(temp / "a.part"), "");
   const ExrRows rows = partRows(PartReader(temp / "a.part").header(), "");
-  ASSERT_EQ(rows.layers().size(), 5u);
+  ASSERT_EQ(rows.layers().size(), GetParam() ? 7u : 5u);
   std::string spoiled = bytes;
-  const std::size_t last = bytes.size() - kSealBytes - rows.rowBytes(4);  // statistics of direct light
+  const std::size_t last = bytes.size() - kSealBytes - rows.rowBytes(rows.layers().size() - 1);  // statistics or moments of direct light
   spoiled[last] = static_cast<char>(spoiled[last] ^ 1);
   test::setBytes(temp / "b.part", test::resealed(spoiled));
   EXPECT_NE(test::refusalOf(temp / "b.part"), "");
