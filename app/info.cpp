@@ -20,16 +20,13 @@ std::string lowerExtension(const std::filesystem::path& path) {
   return e;
 }
 
-/// Rows of a table, which the manifest keeps by columns.
-std::size_t rowsOf(const nlohmann::json& table) {
-  return table.is_object() && !table.empty() && table.begin()->is_array() ? table.begin()->size() : table.size();
-}
-
 nlohmann::json describeDlm(const std::filesystem::path& path) {
   nlohmann::json d = readManifest(path);
   // Long tables that only programs read.
-  for (const char* key : {"charts", "sides", "maps", "pages"})
-    if (d.contains(key) && (d[key].is_array() || d[key].is_object())) d[key] = rowsOf(d[key]);
+  for (const char* key : {"charts", "sides"}) {
+    // Kept by column: "count" has one entry a chart or side.
+    if (d.contains(key) && d[key].is_object()) d[key] = d[key].value("count", nlohmann::json::array()).size();
+  }
   if (d.contains("directions") && d["directions"].is_object()) d["directions"].erase("list");
   d["kind"] = "light maps";
   return d;

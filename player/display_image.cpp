@@ -11,13 +11,13 @@ namespace {
 
 DisplayedImage displayLight(const ImageRgb& image, const DisplayOptions& options) {
   const float exposure = options.ev100 ? static_cast<float>(exposureOfEv100(*options.ev100)) : autoExposure(image);
-  return {toDisplay(image, exposure, options.curve),
-          "exposure value " + formatNumber(ev100OfExposure(static_cast<double>(exposure)))};
+  const double ev100 = ev100OfExposure(static_cast<double>(exposure));
+  return {toDisplay(image, exposure, options.curve), "exposure value " + formatNumber(ev100), ev100};
 }
 
 DisplayedImage displayNumbers(const ImageRgb& image) {
   const float top = heatTop(image);
-  DisplayedImage out{{}, "black 0 to pale yellow " + formatNumber(static_cast<double>(top))};
+  DisplayedImage out{{}, "black 0 to pale yellow " + formatNumber(static_cast<double>(top)), 0};
   out.bytes.reserve(image.pixels.size() * 3);
   for (const Rgb& p : image.pixels) {
     const auto colour = heatColour(static_cast<double>(p.x / top));
@@ -45,7 +45,7 @@ DisplayedImage displayImage(const ImageRgb& image, ViewScale scale, const Displa
     case ViewScale::number:
       return displayNumbers(image);
     case ViewScale::colour:
-      return {toDisplay(image, 1.f, ToneCurve::plain), ""};
+      return {toDisplay(image, 1.f, ToneCurve::plain), "", 0};
     case ViewScale::light:
       break;
   }

@@ -17,6 +17,7 @@ struct DisplayOptions {
 struct DisplayedImage {
   std::vector<std::uint8_t> bytes;  // 3 a pixel, top row first
   std::string scale;  // what its colours mean: "exposure value 7.3"; empty for colours that are what they are
+  double ev100 = 0;                 // of light: what it was exposed for
 };
 
 /// Light is exposed and tone mapped, numbers become heat colours from 0 to heatTop(), colours stay.

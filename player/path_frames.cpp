@@ -8,26 +8,11 @@
 #include "player/gpu_timer.h"
 #include "player/offscreen.h"
 #include "player/overlay.h"
-#include "player/read_back.h"
+#include "player/screen_image.h"
 #include "player/shown_scene.h"
 
 namespace lucarne {
 namespace {
-
-/// What stands for the window's own picture.
-struct Screen {
-  Screen(int width_, int height_)
-      : width(width_),
-        height(height_),
-        color(makeTexture({GL_TEXTURE_2D, GL_RGBA8, 1, width, height, 1})),
-        framebuffer(makeFramebuffer(color.get(), 0, "an 8-bit image")) {}
-
-  std::vector<std::uint8_t> read() const { return readBackBytes(framebuffer.get(), width, height); }
-
-  int width, height;
-  GlTexture color;
-  GlFramebuffer framebuffer;
-};
 
 class PathFrames {
  public:
@@ -114,7 +99,7 @@ class PathFrames {
   FrameRenderer renderer_;
   DisplayPass display_;
   FrameTarget target_;
-  Screen screen_;
+  ScreenImage screen_;
   std::string driver_;
   GpuTimer timer_;
   EyeAdaptation eye_;

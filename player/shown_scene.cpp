@@ -14,12 +14,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kReading = 0.7, kSorting = 0.75, kCompiling = 0.95;  // shares of the whole
 
+}  // namespace
+
 double photonsOf(const nlohmann::json& manifest) {
   const auto found = manifest.find("photons");
   return found != manifest.end() && found->is_number() ? found->get<double>() : 0;
 }
-
-}  // namespace
 
 float windowScale(const Scene& scene, const LightMaps& maps) {
   float largest = 0;

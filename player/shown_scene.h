@@ -21,6 +21,9 @@ struct ShownScene {
   double loadSeconds;
 };
 
+/// Of the manifest's bake; 0: not known.
+double photonsOf(const nlohmann::json& manifest);
+
 /// Power of two that keeps lamps and lit surfaces within 16-bit floats.
 float windowScale(const Scene& scene, const LightMaps& maps);
 

@@ -14,6 +14,7 @@
 #include "base/units.h"
 #include "dlm/dlm_reader.h"
 #include "player/path_frames.h"
+#include "player/shown_scene.h"
 
 namespace lucarne {
 namespace {
@@ -71,9 +72,7 @@ std::size_t framesOf(const WalkPath& path, const AnimationJob& job) {
 }
 
 Benchmark draw(const AnimationJob& job, const WalkPath& path, const Dlm& dlm, AnimationReport& report) {
-  PathFramesOptions options{job.options, job.fps, job.overlay, 0};
-  if (const auto found = dlm.manifest.find("photons"); found != dlm.manifest.end() && found->is_number())
-    options.photons = found->get<double>();
+  const PathFramesOptions options{job.options, job.fps, job.overlay, photonsOf(dlm.manifest)};
   const bool keeps = !job.output.empty();
   PathFramesSink sink;
   sink.isWanted = [&](std::size_t frame) { return !keeps || !fs::exists(frameFile(job.output, frame)); };

@@ -13,6 +13,8 @@
 #include "dlm/dlm_reader.h"
 #include "player/camera_choice.h"
 #include "player/offscreen.h"
+#include "player/overlay_picture.h"
+#include "player/shown_scene.h"
 #include "player/tonemap.h"
 #include "tracer/scene/gltf_reader.h"
 #include "tracer/transport/picture.h"
@@ -21,11 +23,20 @@ namespace lucarne {
 
 namespace {
 
-ImageRgb drawn(const RenderJob& job, RenderStats& stats, std::string& otherwise) {
+/// Draws light maps; what the overlay tells of them into `text`.
+ImageRgb drawn(const RenderJob& job, RenderReport& report, OverlayText& text) {
   const Dlm dlm = readDlm(job.dlm);
   const ImageRgb sky = loadSky(job.sky);
-  otherwise = shownOtherwise(dlm.scene, dlm.maps);
-  return renderImage(dlm.scene, dlm.maps, chooseCamera(dlm.scene, job.camera), job.options, &stats, &sky);
+  report.otherwise = shownOtherwise(dlm.scene, dlm.maps);
+  ImageRgb image = renderImage(dlm.scene, dlm.maps, chooseCamera(dlm.scene, job.camera), job.options, &report.stats, &sky);
+  text.renderer = job.options.renderer;
+  text.frameSeconds = text.lastFrameSeconds = report.stats.frameSeconds;
+  text.stats = report.stats;
+  text.photons = photonsOf(dlm.manifest);
+  text.width = image.width;
+  text.height = image.height;
+  text.renderScale = job.options.supersamples;
+  return image;
 }
 
 /// Of a scene, or of the one that light maps were made of.
@@ -55,22 +66,47 @@ ImageRgb pathTraced(const RenderJob& job, RenderStats& stats) {
 
 }  // namespace
 
-RenderReport render(const RenderJob& job) {
-  const std::string ending = job.output.extension().string();
-  if (ending != ".exr" && ending != ".png") throw UsageError(job.output.string() + ": pictures are .exr or .png");
-  checkWritable(job.output);
+namespace {
+
+void check(const RenderJob& job, bool png) {
+  if (!png && job.output.extension() != ".exr") throw UsageError(job.output.string() + ": pictures are .exr or .png");
   const bool traced = job.options.renderer == RendererKind::pathtraced;
   if (traced && job.options.view.kind != ViewKind::full)
     throw UsageError("--view " + std::string(nameOf(job.options.view.kind)) +
                      " shows light maps; the path tracer has none");
+  if (job.overlay && traced) throw UsageError("--overlay tells of light maps; the path tracer has none");
+  if (job.overlay && !png) throw UsageError("--overlay is for .png: an .exr holds values alone");
+}
+
+void writeDisplayed(const RenderJob& job, const ImageRgb& image, OverlayText text, RenderReport& report) {
+  DisplayedImage shown = displayImage(image, scaleOf(job.options.view.kind), job.display);
+  if (job.overlay) {
+    LookSettings look;
+    look.curve = job.display.curve;
+    look.view = job.options.view;
+    look.lobe = job.options.lobe;
+    look.exposureLocked = job.display.ev100.has_value();
+    text.ev100 = shown.ev100;
+    drawOverlayOver(shown.bytes, text, look);
+  }
+  writePng(job.output, image.width, image.height, shown.bytes);
+  report.scale = std::move(shown.scale);
+}
+
+}  // namespace
+
+RenderReport render(const RenderJob& job) {
+  const bool png = job.output.extension() == ".png";
+  check(job, png);
+  checkWritable(job.output);
   RenderReport report;
-  const ImageRgb image = traced ? pathTraced(job, report.stats) : drawn(job, report.stats, report.otherwise);
-  if (ending == ".exr") {
-    writeExrRgb(job.output, image);
+  OverlayText text;
+  const bool traced = job.options.renderer == RendererKind::pathtraced;
+  const ImageRgb image = traced ? pathTraced(job, report.stats) : drawn(job, report, text);
+  if (png) {
+    writeDisplayed(job, image, text, report);
   } else {
-    DisplayedImage shown = displayImage(image, scaleOf(job.options.view.kind), job.display);
-    writePng(job.output, image.width, image.height, shown.bytes);
-    report.scale = std::move(shown.scale);
+    writeExrRgb(job.output, image);
   }
   return report;
 }

@@ -19,6 +19,7 @@ struct RenderJob {
   std::string camera;  // name or index; empty: the first, or one that sees the scene
   RenderOptions options;
   DisplayOptions display;  // of .png
+  bool overlay = false;    // of .png: the text that play shows, over the picture
 };
 
 struct RenderReport {
@@ -27,7 +28,7 @@ struct RenderReport {
   std::string otherwise;  // shownOtherwise()
 };
 
-/// Renders and writes the picture. UsageError for an unknown camera or ending.
+/// Renders and writes the picture. UsageError for an unknown camera or ending, or an overlay where there is none to show.
 RenderReport render(const RenderJob& job);
 
 }  // namespace lucarne

@@ -8,7 +8,7 @@ namespace {
 
 void check(const AnimationJob& job, const RenderJob& picture) {
   if (job.replay.empty()) {
-    if (job.overlay || !job.benchmark.empty()) throw UsageError("--overlay and --benchmark go with --replay");
+    if (!job.benchmark.empty()) throw UsageError("--benchmark goes with --replay");
     if (picture.output.empty()) throw UsageError("-o is required: IMAGE.exr or IMAGE.png");
     return;
   }
@@ -35,7 +35,6 @@ void addAnimationArguments(CLI::App& cmd, AnimationJob& animation) {
   cmd.add_option("--fps", animation.fps, "with --replay: frames a second")
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
-  cmd.add_flag("--overlay", animation.overlay, "with --replay: the text that play shows over each picture");
   cmd.add_option("--benchmark", animation.benchmark, "with --replay: write frame times to this file (JSON); needs no -o");
 }
 
@@ -43,6 +42,7 @@ bool animateIfAsked(AnimationJob animation, const RenderJob& picture) {
   animation.dlm = picture.dlm;
   animation.output = picture.output;
   animation.options = picture.options;
+  animation.overlay = picture.overlay;
   check(animation, picture);
   if (animation.replay.empty()) return false;
   tell(animation, animate(animation));

@@ -50,6 +50,7 @@ void addRender(CLI::App& app, Action& action) {
   cmd->add_option("--samples", job->samples, "pathtraced: paths a pixel; four times as many halve the noise")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
+  cmd->add_flag("--overlay", job->overlay, "the text that play shows over the picture (.png), or over each with --replay");
   const auto animation = std::make_shared<AnimationJob>();
   addAnimationArguments(*cmd, *animation);
   const auto sky = std::make_shared<std::string>();
