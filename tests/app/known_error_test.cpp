@@ -94,8 +94,9 @@ TEST_P(KnownError, IsTheSpreadOfManyBakes) {
       if (ratio.texels < 200) continue;  // too few to tell 0.9 from 1
       judged += ratio.texels;
       // Slivers that catch next to nothing lean on neighbours, whose light a wide kernel takes from a larger surface.
-      if (c.kernel != KernelShape::adaptive || fewest > 0)
+      if (c.kernel != KernelShape::adaptive || fewest > 0) {
         EXPECT_GT(ratio.value, 0.9) << fewest << " to " << most << " photons, relative " << relative;
+      }
       EXPECT_LT(ratio.value, 1.1) << fewest << " to " << most << " photons, relative " << relative;
       std::printf("%s: %g to %g photons, %s: %.3f (%zu texels)\n", c.name.c_str(), fewest, most,
                   relative ? "relative" : "absolute", ratio.value, ratio.texels);
