@@ -58,7 +58,7 @@ void addPlay(CLI::App& app, Action& action) {
   const auto environment = std::make_shared<std::string>();
   addSkyOptions(*cmd, *sky, *environment);
   cmd->add_option("--frames", options->frames, "end after that many frames; 0: when the window is closed")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   cmd->add_option("--screenshot", options->screenshot, "save the last frame, overlay included, as a PNG");
   const auto record = cmd->add_option("--record", options->record, "write the walk to this file at the end (JSON)");

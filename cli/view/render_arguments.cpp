@@ -42,7 +42,7 @@ void addViewArguments(CLI::App& cmd, View& view) {
   }
   addChoice<ViewKind>(cmd, "--view", view.kind, views, "full", help);
   cmd.add_option("--psi", view.psi, "the direction of --view direction, from 0")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 65535))
       ->capture_default_str();
 }
 
