@@ -24,8 +24,9 @@ nlohmann::json describeDlm(const std::filesystem::path& path) {
   nlohmann::json d = readManifest(path);
   // Long tables that only programs read.
   for (const char* key : {"charts", "sides"}) {
-    // Kept by column: "count" has one entry a chart or side.
-    if (d.contains(key) && d[key].is_object()) d[key] = d[key].value("count", nlohmann::json::array()).size();
+    if (!d.contains(key) || !d[key].is_object() || !d[key].contains("count")) continue;
+    const nlohmann::json count = d[key]["count"];
+    d[key] = count;
   }
   if (d.contains("directions") && d["directions"].is_object()) d["directions"].erase("list");
   d["kind"] = "light maps";
