@@ -11,7 +11,7 @@
 namespace lucarne {
 namespace {
 
-constexpr float kRadius = 80;  // pixels
+constexpr float kRadius = 80, kMargin = 24;  // pixels; spots near the horizon reach beyond it
 
 ImU32 colourOf(Rgbd radiance, double white) {
   const auto code = [&](double v) {
@@ -46,7 +46,7 @@ void drawLightPlot(const ProbeAnswer& answer, Vec3d normal) {
   for (const LightSpot& s : spots) white = std::max(white, maxComponent(s.radiance));
   ImGui::Text("light by direction, white %.3g cd/m2", white);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 middle{corner.x + kRadius, corner.y + kRadius};
+  const ImVec2 middle{corner.x + kMargin + kRadius, corner.y + kMargin + kRadius};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircleFilled(middle, kRadius, IM_COL32(20, 20, 24, 255), 64);
   for (const LightSpot& s : spots) {
@@ -56,7 +56,7 @@ void drawLightPlot(const ProbeAnswer& answer, Vec3d normal) {
                           colourOf(s.radiance, std::max(white, 1e-300)), 24);
   }
   list->AddCircle(middle, kRadius, IM_COL32(160, 160, 160, 255), 64);
-  ImGui::Dummy({2 * kRadius, 2 * kRadius});
+  ImGui::Dummy({2 * (kMargin + kRadius), 2 * (kMargin + kRadius)});
 }
 
 }  // namespace lucarne

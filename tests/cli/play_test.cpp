@@ -128,6 +128,39 @@ TEST_F(Play, TakesAnySizeAndBeingHidden) {
   EXPECT_EQ(quit(), 0) << log();
 }
 
+TEST_F(Play, TakesAnySizeWhileItLoads) {
+  bake();
+  start("play room.dlm --size 480x240");
+  ASSERT_TRUE(findWindow("Lucarne: room.dlm")) << log();
+  for (const char* step : {"windowsize WINDOW 1 1", "windowunmap WINDOW", "windowmap WINDOW", "windowsize WINDOW 800 600",
+                           "windowsize WINDOW 480 240", "windowmove WINDOW 0 0"})
+    tool(step);
+  EXPECT_TRUE(soon([&] { return isLit(part()); })) << log();
+  focus();
+  EXPECT_EQ(quit(), 0) << log();
+}
+
+TEST_F(Play, KeepsThePictureWhenAFileOfTheReplacedMapsIsCutShort) {
+  bake();
+  open("--watch");
+  const auto first = part();
+  for (const char* file : {"directional.exr", "irradiance.exr", "scene.glb"}) {
+    fs::copy(folder_ / "room.dlm", folder_ / "cut.dlm");
+    const fs::path cut = folder_ / "cut.dlm" / file;
+    fs::resize_file(cut, fs::file_size(cut) / 2);
+    fs::remove_all(folder_ / "room.dlm");
+    fs::rename(folder_ / "cut.dlm", folder_ / "room.dlm");
+    EXPECT_TRUE(soon([&] { return log().find(std::string(file)) != std::string::npos; })) << log();
+    EXPECT_LT(difference(first, part()), 0.05) << file;
+    fs::remove_all(folder_ / "room.dlm");
+    bake();
+    ASSERT_TRUE(soon([&] { return settled(); }));
+  }
+  const std::string told = log();
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 3) << "one line each\n" << told;
+  EXPECT_EQ(quit(), 0) << log();
+}
+
 TEST_F(Play, ShowsMapsThatAreReplacedAndKeepsThoseThatAreSpoiled) {
   bake();
   open("--watch");
