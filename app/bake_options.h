@@ -51,7 +51,7 @@ struct BakeOptions {
   ChartMode charts = ChartMode::automatic;
   bool keepAllDirections = false;
   bool moments = false;  // mean directions beside the light of each cell (tally.h)
-  KernelOptions kernel;
+  KernelOptions kernel{KernelShape::adaptive, defaultKernelWidth(KernelShape::adaptive)};
   SeamMode seams = SeamMode::fit;
   double dropError = 0;  // maps of faint directions are left out under this bound (drop_maps.h)
   std::uint64_t seed = 0;

@@ -7,7 +7,6 @@ namespace lucarne {
 
 void addQualityOptions(CLI::App& cmd, BakeOptions& o, QualityTexts& texts) {
   addLayoutOptions(cmd, o, texts.layout);
-  o.kernel.shape = KernelShape::adaptive;
   addChoice<KernelShape>(cmd, "--kernel", o.kernel.shape, kernelShapes(), "adaptive", kKernelHelp);
   cmd.add_option("--kernel-width", texts.kernelWidth,
                  "distance in texels at which the kernel ends: wider is smoother and blurrier; of adaptive the widest")

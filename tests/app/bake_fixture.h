@@ -17,6 +17,7 @@ namespace lucarne::test {
 
 inline BakeOptions quickOptions(std::uint64_t photons, double texelsPerMetre) {
   BakeOptions o;
+  o.kernel = {};
   o.photons = photons;
   o.texelsPerMetre = texelsPerMetre;
   return o;

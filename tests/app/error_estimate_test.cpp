@@ -67,6 +67,7 @@ TEST_P(ErrorEstimate, IsThatOfTheMaps) {
 
 TEST_P(ErrorEstimate, IsThatOfTheMapsWithGatheredLight) {
   BakeOptions o;
+  o.kernel = {};
   o.direct = DirectMode::gathered;
   const auto [estimate, truth] = both(o, 50'000, 8);
   EXPECT_GT(truth, 0.001);

@@ -16,6 +16,7 @@ struct Comparison {
 
 BakeOptions quickOptions(std::uint64_t photons) {
   BakeOptions o;
+  o.kernel = {};
   o.photons = photons;
   o.texelsPerMetre = 2;
   o.keepAllDirections = true;

@@ -147,8 +147,8 @@ TEST_F(SpoiledMerge, PartsOfOtherSettingsAreRefusedWithTheFieldNamed) {
                                                       {"--texels 500k", "texel_budget: 1000000 and 500000"},
                                                       {"--light direct", "light: \"all\" and \"direct\""},
                                                       {"--light indirect", "light: \"all\" and \"indirect\""},
-                                                      {"--kernel box", "kernel: \"pyramid\" and \"box\""},
-                                                      {"--kernel-width 2", "kernel_width: 1.5 and 2.0"}};
+                                                      {"--kernel box", "kernel: \"adaptive\" and \"box\""},
+                                                      {"--kernel-width 2", "kernel_width: 4.5 and 2.0"}};
   for (const auto& [option, words] : rows) {
     mustRun(std::string("bake") + test::kQuickScene + "--photons 2k --quiet -o x.part --part 2/2 " + option +
             (std::string(option).starts_with("--density") ? "" : " --density 2"));

@@ -53,6 +53,7 @@ Scene whiteFurnace(float exponent) {
 
 Dlm bake(const Scene& scene, int directions, std::uint64_t photons) {
   BakeOptions o;
+  o.kernel = {};
   o.photons = photons;
   o.texelsPerMetre = kDensity;
   o.directions = directions;
