@@ -74,8 +74,8 @@ class Workplace:
         self.filler = os.path.join(self.folder, "filler")
 
     def fill(self):
-        """Leaves no room. Only on a disk of our own."""
-        with open(self.filler, "wb") as f:
+        """Leaves no room, also none of what was freed since. Only on a disk of our own."""
+        with open(self.filler, "ab") as f:
             block = bytes(1 << 20)
             try:
                 while True:
@@ -255,7 +255,9 @@ class Night:
         # It ends by itself, or says that it goes on without a state.
         until = time.monotonic() + max(120, 30 * self.a.checkpoint)
         while self.running() and "no state saved" not in self.said() and time.monotonic() < until:
-            time.sleep(0.05)
+            if self.place.mounted:
+                self.place.fill()  # an older state that was removed for the next makes room; others take it
+            time.sleep(0.01)
         ended = not self.running()
         warned = "no state saved" in self.said()
         if self.place.mounted:

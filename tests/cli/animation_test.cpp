@@ -98,7 +98,7 @@ TEST_F(Animation, TellsItsTimesWithoutKeepingPictures) {
 TEST_F(Animation, OptionsThatDoNotGoTogetherAreRefused) {
   EXPECT_EQ(render("").code, 2);
   EXPECT_EQ(render("-o x --renderer pathtraced").code, 2);
-  EXPECT_EQ(run("render room.dlm -o x.png --overlay").code, 2);
+  EXPECT_EQ(run("render room.dlm -o x.exr --overlay").code, 2);
   EXPECT_EQ(run("render room.dlm").code, 2);
   std::ofstream(folder_ / "walk.json") << "{}";
   EXPECT_EQ(render("-o x").code, 3);
