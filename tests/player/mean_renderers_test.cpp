@@ -7,6 +7,7 @@
 #include "player/map_tables.h"
 #include "player/offscreen.h"
 #include "tests/player/gl_available.h"
+#include "tests/player/picture_values.h"
 #include "tests/player/synthetic_maps.h"
 #include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
@@ -16,25 +17,12 @@ namespace lucarne {
 namespace {
 
 using test::BakedScene;
+using test::largestDifference;
+using test::meanOf;
 
 ImageRgb render(const BakedScene& baked, RenderOptions options) {
   options.format = LightMapFormat::float32;
   return renderImage(baked.scene, baked.maps, baked.scene.cameras.at(0), options);
-}
-
-double meanOf(const ImageRgb& image) {
-  double sum = 0;
-  for (const Rgb& p : image.pixels) sum += mean(p);
-  return sum / static_cast<double>(image.pixels.size());
-}
-
-double largestDifference(const ImageRgb& a, const ImageRgb& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const Rgb d = a.pixels[i] - b.pixels[i];
-    largest = std::max<double>(largest, std::max(maxComponent(d), -minComponent(d)));
-  }
-  return largest;
 }
 
 /// Turns and shortens the means, each texel's otherwise.

@@ -5,6 +5,7 @@
 #include "player/lobe.h"
 #include "player/offscreen.h"
 #include "tests/player/gl_available.h"
+#include "tests/player/picture_values.h"
 #include "tests/player/synthetic_maps.h"
 #include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
@@ -14,25 +15,12 @@ namespace lucarne {
 namespace {
 
 using test::BakedScene;
+using test::largestDifference;
+using test::meanOf;
 
 ImageRgb render(const BakedScene& baked, RendererKind renderer, LightMapFormat format, int width, int height,
                 RenderStats* stats = nullptr) {
   return renderImage(baked.scene, baked.maps, baked.scene.cameras.at(0), {width, height, renderer, format}, stats);
-}
-
-double meanOf(const ImageRgb& image) {
-  double sum = 0;
-  for (const Rgb& p : image.pixels) sum += mean(p);
-  return sum / static_cast<double>(image.pixels.size());
-}
-
-double largestDifference(const ImageRgb& a, const ImageRgb& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const Rgb d = a.pixels[i] - b.pixels[i];
-    largest = std::max<double>(largest, std::max(maxComponent(d), -minComponent(d)));
-  }
-  return largest;
 }
 
 const Rgb& centre(const ImageRgb& image) {
