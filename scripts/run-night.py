@@ -382,6 +382,17 @@ def expected_rate(a):
     return checked["time"]["photons_per_second"]
 
 
+def copy_without_folders(file, to, folders):
+    """The report is to be shown elsewhere: of the paths in it the names remain."""
+    with open(file, encoding="utf-8") as f:
+        text = f.read()
+    for folder in folders:
+        if folder:
+            text = text.replace(os.path.join(folder, ""), "")
+    with open(os.path.join(to, os.path.basename(file)), "w", encoding="utf-8") as f:
+        f.write(text)
+
+
 def main():
     a = arguments()
     os.makedirs(a.out, exist_ok=True)
@@ -401,7 +412,7 @@ def main():
             for end in ("json", "html"):
                 file = os.path.join(place.folder, "night-report." + end)
                 if os.path.exists(file):
-                    shutil.copy(file, a.out)
+                    copy_without_folders(file, a.out, [place.folder, os.path.dirname(a.scene or "")])
         result = {"night_seconds": a.night_seconds, "scene": os.path.basename(a.scene) if a.scene else "built in",
                   "options": a.bake, "runs": night.runs, "interruptions": night.events, "same_hash": same,
                   "content_hash": report and report["content_hash"], "photons": report and report["photons"],
