@@ -9,6 +9,7 @@ namespace {
 /// Seconds after which what was counts 1/e: short enough to follow a machine that others start to use, and a share of
 /// the whole so that pauses for saving, and their absence, do not show in the time left.
 constexpr double kMemory = 5, kMemoryShare = 0.25;
+constexpr double kWarmUp = 0.8;  // seconds
 
 double perSecond(std::uint64_t events, double seconds) {
   return seconds > 0 ? static_cast<double>(events) / seconds : 0;
@@ -25,6 +26,11 @@ void ProgressModel::startFrom(std::uint64_t photons, std::uint64_t rays) {
 
 void ProgressModel::update(double now, std::uint64_t photons, std::uint64_t rays) {
   const double elapsed = std::max(0.0, now - last_);
+  // Threads touch their memory first: the first second of tracing says little about those to come.
+  if (!warm_ && last_ - start_ - paused_ >= kWarmUp) {
+    photonRate_ = rayRate_ = {};
+    warm_ = true;
+  }
   const double keep = std::exp(-elapsed / std::max(kMemory, kMemoryShare * (now - start_)));
   photonRate_.add(since(photons_, photons), elapsed, keep);
   rayRate_.add(since(rays_, rays), elapsed, keep);

@@ -66,6 +66,7 @@ class ProgressModel {
   double start_, last_, paused_ = 0;
   std::uint64_t photons_ = 0, rays_ = 0, earlierPhotons_ = 0, earlierRays_ = 0;
   SmoothRate photonRate_, rayRate_;
+  bool warm_ = false;
   double error_ = 0;  // estimated last, at errorPhotons_; 0 photons: never
   double errorPhotons_ = 0;
 };
