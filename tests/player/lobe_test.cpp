@@ -6,11 +6,15 @@
 #include <numbers>
 
 #include "player/cell_tables.h"
+#include "tests/player/coats.h"
 #include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
 
 namespace lucarne {
 namespace {
+
+using test::coatOnly;
+using test::directionAt;
 
 std::vector<LobeCell> membersOf(const DirectionSet& set, Vec3d n) {
   std::vector<LobeCell> cells;
@@ -25,18 +29,6 @@ std::vector<Rgb> constantLight(const std::vector<LobeCell>& cells, Rgb L) {
   std::vector<Rgb> values;
   for (const LobeCell& c : cells) values.push_back(L * c.cosIntegral);
   return values;
-}
-
-Vec3f directionAt(double theta, double phi) {
-  return Vec3f(Vec3d{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
-}
-
-Bsdf coatOnly(float exponent) {
-  Bsdf b;
-  b.f0 = Rgb{0.8f, 0.5f, 0.2f};
-  b.f90 = Rgb{1.f};
-  b.alpha = alphaFromPhong(exponent);
-  return b;
 }
 
 TEST(Lobe, ConstantLightGivesItsRadianceTimesTheAlbedo) {

@@ -7,23 +7,15 @@
 #include "dlm/mean_direction.h"
 #include "player/cell_tables.h"
 #include "player/lobe.h"
+#include "tests/player/coats.h"
 #include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
 
 namespace lucarne {
 namespace {
 
-Vec3f directionAt(double theta, double phi) {
-  return Vec3f(Vec3d{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
-}
-
-Bsdf coatOnly(float exponent) {
-  Bsdf b;
-  b.f0 = Rgb{0.8f, 0.5f, 0.2f};
-  b.f90 = Rgb{1.f};
-  b.alpha = alphaFromPhong(exponent);
-  return b;
-}
+using test::coatOnly;
+using test::directionAt;
 
 struct Members {
   std::vector<int> psi;

@@ -6,6 +6,7 @@
 #include "player/lobe.h"
 #include "player/map_tables.h"
 #include "player/offscreen.h"
+#include "tests/player/coats.h"
 #include "tests/player/gl_available.h"
 #include "tests/player/picture_values.h"
 #include "tests/player/synthetic_maps.h"
@@ -17,6 +18,7 @@ namespace lucarne {
 namespace {
 
 using test::BakedScene;
+using test::coat;
 using test::largestDifference;
 using test::meanOf;
 
@@ -34,14 +36,6 @@ void stir(LightMaps& maps) {
     m += Vec3f{uniform(rng), uniform(rng), uniform(rng)};
     m = m / std::max(1.f, std::sqrt(dot(m, m)));
   }
-}
-
-Material coat(float exponent) {
-  Material m;
-  m.baseColor = {0.9f, 0.6f, 0.3f};
-  m.metallic = 1;
-  m.roughness = roughnessFromPhong(exponent);
-  return m;
 }
 
 class MeanRenderers : public test::GlTest {};

@@ -4,6 +4,7 @@
 #include "player/cell_tables.h"
 #include "player/lobe.h"
 #include "player/offscreen.h"
+#include "tests/player/coats.h"
 #include "tests/player/gl_available.h"
 #include "tests/player/picture_values.h"
 #include "tests/player/synthetic_maps.h"
@@ -15,6 +16,7 @@ namespace lucarne {
 namespace {
 
 using test::BakedScene;
+using test::coat;
 using test::largestDifference;
 using test::meanOf;
 
@@ -104,14 +106,6 @@ TEST_F(Renderers, ABackThatAbsorbsIsBlackAndATwoSidedOneHasItsOwnLight) {
   EXPECT_EQ(centre(render(oneSided, RendererKind::singlepass, LightMapFormat::half, 9, 9)), Rgb(0.f));
   const BakedScene both = plate(64, m, light, {0, 0, -2}, {true, false, 0}, test::SideSpec{true, false, 0});
   EXPECT_NEAR(centre(render(both, RendererKind::singlepass, LightMapFormat::half, 9, 9)).x, 3 + 5, 0.4);
-}
-
-Material coat(float exponent) {
-  Material m;
-  m.baseColor = {0.9f, 0.6f, 0.3f};
-  m.metallic = 1;
-  m.roughness = roughnessFromPhong(exponent);
-  return m;
 }
 
 // The shaders' lobes against those of lobe.h, in both renderers, at the pixel that looks at the middle of the plate.
