@@ -119,9 +119,12 @@ double largestFitting(double from, const std::function<bool(double)>& fits) {
   return std::floor(low / unit) * unit;
 }
 
-/// What would fit: "--density 7.5 or --directions 8".
+/// What would fit: "--density 7.5 or --directions 8". The next process will not hold the same memory to the byte before
+/// its tallies, so that the advice leaves room for that.
 std::string advice(const BakeOptions& options, const Scene& scene, const BakePlan& plan, const MemorySoFar& soFar,
                    std::uint64_t allowed) {
+  constexpr std::uint64_t kSpread = 32;  // one part in so many
+  const std::uint64_t aim = allowed - allowed / kSpread;
   const auto peakOf = [&](const BakeOptions& o) {
     const TexelLayout layout = layOutTexels(scene, plan.charts, {o.texelsPerMetre, o.texelBudget});
     DirectionSet directions(o.directions);
@@ -131,12 +134,12 @@ std::string advice(const BakeOptions& options, const Scene& scene, const BakePla
   const double density = largestFitting(plan.layout.texelsPerMetre, [&](double d) {
     BakeOptions o = options;
     o.texelsPerMetre = d;
-    return peakOf(o) <= allowed;
+    return peakOf(o) <= aim;
   });
   const double directions = largestFitting(options.directions, [&](double n) {
     BakeOptions o = options;
     o.directions = std::max(1, static_cast<int>(n));
-    return peakOf(o) <= allowed;
+    return peakOf(o) <= aim;
   });
   std::string text;
   if (density > 0) text = "--density " + formatNumber(density);

@@ -39,7 +39,8 @@ add_library(lucarne_common_headers OBJECT "${PROJECT_BINARY_DIR}/common_headers.
 target_link_libraries(lucarne_common_headers PRIVATE lucarne_flags)
 target_precompile_headers(lucarne_common_headers PRIVATE ${LUCARNE_COMMON_HEADERS})
 
-# Reading headers is most of the time that a file takes: several are compiled as one.
+# Reading headers is most of the time that a file takes: several are compiled as one. What a test names for itself lies
+# in a namespace of its file's name, so that the names of several do not meet.
 function(lucarne_compile_together target)
   if(LUCARNE_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
@@ -77,11 +78,11 @@ set(LUCARNE_TEST_OBJECTS "" CACHE PATH "Build folder to take the compiled tests 
 
 # lucarne_test_sources(VARIABLE NAME OWN): every .cpp in tests/NAME, or its objects in the other build unless OWN.
 function(lucarne_test_sources variable name own)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
   if(LUCARNE_TEST_OBJECTS AND NOT own)
-    list(TRANSFORM sources REPLACE "^${PROJECT_SOURCE_DIR}/tests/(.*)$"
-                                   "${LUCARNE_TEST_OBJECTS}/tests/CMakeFiles/test_${name}.dir/\\1.o")
+    file(STRINGS "${LUCARNE_TEST_OBJECTS}/tests/test_${name}.objects" sources)
     set_source_files_properties(${sources} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+  else()
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
   endif()
   set(${variable} ${sources} PARENT_SCOPE)
 endfunction()
@@ -112,6 +113,9 @@ function(lucarne_test name)
   target_compile_definitions(test_${name} PRIVATE LUCARNE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   if(arg_OWN_OBJECTS OR NOT LUCARNE_TEST_OBJECTS)
     lucarne_precompile_test_headers(test_${name})
+    lucarne_compile_together(test_${name})
+    # What a build that links the same objects must name.
+    file(GENERATE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/test_${name}.objects" CONTENT "$<JOIN:$<TARGET_OBJECTS:test_${name}>,\n>\n")
   endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 120
                        PROPERTIES TIMEOUT 900 ENVIRONMENT "${arg_ENVIRONMENT}")

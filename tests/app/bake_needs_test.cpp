@@ -9,7 +9,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::bake_needs_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -122,4 +122,4 @@ TEST(Disk, IsFoundOfPathsThatAreNotThereYet) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::bake_needs_test

@@ -10,7 +10,7 @@
 #include "tests/support/scene_builder.h"
 #include "tracer/scene/gltf_reader.h"
 
-namespace lucarne {
+namespace lucarne::check_surfaces_test {
 namespace {
 
 using nlohmann::json;
@@ -109,4 +109,4 @@ TEST(CheckLights, OfAMillionthOfTheStrongestAreNamed) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::check_surfaces_test

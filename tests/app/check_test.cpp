@@ -10,7 +10,7 @@
 #include "app/check_time.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::check_test {
 namespace {
 
 using nlohmann::json;
@@ -274,4 +274,4 @@ TEST(CheckText, EverySectionIsThereAndNamesCannotCommandATerminal) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::check_test

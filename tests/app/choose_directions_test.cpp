@@ -7,7 +7,7 @@
 #include "dlm/lobe_width.h"
 #include "tracer/optics/phong.h"
 
-namespace lucarne {
+namespace lucarne::choose_directions_test {
 namespace {
 
 /// Two triangles of one square metre each with metals of given exponents; 0: a Lambert surface.
@@ -57,4 +57,4 @@ TEST(ChooseDirections, ANumberThatIsGivenStays) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::choose_directions_test

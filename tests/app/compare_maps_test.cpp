@@ -5,7 +5,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::compare_maps_test {
 namespace {
 
 /// `action` must fail with `code` and say `words`.
@@ -159,4 +159,4 @@ TEST_F(CompareMaps, TextSaysWhatJsonSays) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::compare_maps_test

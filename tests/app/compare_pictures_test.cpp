@@ -8,7 +8,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::compare_pictures_test {
 namespace {
 
 /// `action` must fail with `code` and say `words`.
@@ -118,4 +118,4 @@ TEST_F(ComparePictures, RefusesWhatCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::compare_pictures_test

@@ -10,7 +10,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::contact_sheet_test {
 namespace {
 
 /// A floor lit by a red lamp, its material glossy so that it has directions.
@@ -102,4 +102,4 @@ TEST(ContactSheet, OfAnythingElseIsRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::contact_sheet_test

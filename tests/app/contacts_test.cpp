@@ -6,7 +6,7 @@
 #include "dlm/resolve.h"
 #include "tests/app/bake_fixture.h"
 
-namespace lucarne {
+namespace lucarne::contacts_test {
 namespace {
 
 using test::BakedScene;
@@ -183,4 +183,4 @@ TEST(Contacts, DoNotChangeLightThatIsTheSameOnBothSides) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::contacts_test

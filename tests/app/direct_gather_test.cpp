@@ -6,7 +6,7 @@
 #include "tests/app/bake_fixture.h"
 #include "tests/app/truth_scenes.h"
 
-namespace lucarne {
+namespace lucarne::direct_gather_test {
 namespace {
 
 using test::BakedScene;
@@ -202,4 +202,4 @@ TEST(Gathered, IndirectLightAsksForNone) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direct_gather_test

@@ -5,7 +5,7 @@
 
 #include "tests/app/deviation.h"
 
-namespace lucarne {
+namespace lucarne::direction_light_test {
 namespace {
 
 using test::BakedScene;
@@ -190,4 +190,4 @@ TEST_P(UniformLight, FillsThemTexelByTexel) {
 INSTANTIATE_TEST_SUITE_P(Directions, UniformLight, testing::Values(14, 64));
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direction_light_test

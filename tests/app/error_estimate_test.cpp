@@ -5,7 +5,7 @@
 #include "distributed/direct_run.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::error_estimate_test {
 namespace {
 
 Scene room() {
@@ -80,4 +80,4 @@ INSTANTIATE_TEST_SUITE_P(Kernels, ErrorEstimate, testing::Values(KernelShape::py
                          });
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::error_estimate_test

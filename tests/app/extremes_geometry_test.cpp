@@ -3,7 +3,7 @@
 
 #include "tests/app/deviation.h"
 
-namespace lucarne {
+namespace lucarne::extremes_geometry_test {
 namespace {
 
 using test::BakedScene;
@@ -280,4 +280,4 @@ TEST(ColouredLight, KeepsTheRatiosOfItsChannels) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::extremes_geometry_test

@@ -5,7 +5,7 @@
 #include "tests/app/deviation.h"
 #include "tests/support/smooth_sphere.h"
 
-namespace lucarne {
+namespace lucarne::extremes_maps_test {
 namespace {
 
 using test::BakedScene;
@@ -198,4 +198,4 @@ TEST(SmoothSphere, UnderTheSunShowsNoFacets) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::extremes_maps_test

@@ -6,7 +6,7 @@
 #include "dlm/resolve.h"
 #include "tests/app/deviation.h"
 
-namespace lucarne {
+namespace lucarne::extremes_test {
 namespace {
 
 using test::BakedScene;
@@ -274,4 +274,4 @@ TEST(PhotonIndex, AtTheFortiethPowerOfTwoReadTheFurnace) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::extremes_test

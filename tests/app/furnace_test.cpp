@@ -1,41 +1,18 @@
 // Closed forms: scenes whose light maps are known on paper.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "tests/app/bake_fixture.h"
+#include "tests/app/deviation.h"
 
-namespace lucarne {
+namespace lucarne::furnace_test {
 namespace {
 
 using test::BakedScene;
+using test::Deviation;
+using test::deviationFrom;
+using test::kPi64;
 using test::ProbedBake;
 using test::SceneBuilder;
-constexpr double kPi64 = std::numbers::pi;
-
-/// Largest |z| over the texels, and z of the area-weighted mean; texels with under 25 photons are only in the mean.
-struct Deviation {
-  double worst = 0, ofMean = 0;
-  std::uint64_t texels = 0;
-};
-
-Deviation deviationFrom(const BakedScene& b, double expected) {
-  Deviation d;
-  double flux = 0, area = 0;
-  forEachTexel(b, [&](const SideMaps&, std::uint64_t t, double a) {
-    const double e = static_cast<double>(luminance(b.baked.maps.irradiance[t]));
-    // Standard error of a texel if the truth is `expected`.
-    const double se = static_cast<double>(b.baked.maps.relativeError[t]) * std::sqrt(e * expected);
-    ++d.texels;
-    d.worst = std::max(d.worst, std::abs(e - expected) / se);
-    flux += a * e;
-    area += a;
-  });
-  // Every photon's number of bounces varies like a geometric one; its relative deviation is below 1.
-  const double se = expected / std::sqrt(static_cast<double>(b.baked.ledger.photons));
-  d.ofMean = std::abs(flux / area - expected) / se;
-  return d;
-}
 
 class Furnace : public testing::TestWithParam<double> {};
 
@@ -102,8 +79,8 @@ TEST(PointLight, OverAPlaneReadsIntensityCosineOverSquareDistance) {
   EXPECT_LT(worst, test::zThreshold(324));
 }
 
-/// Irradiance below a corner of a horizontal rectangle a × b at height h, of radiance 1: the configuration factor of a differential
-/// element to a parallel rectangle, times π (Howell, catalogue of configuration factors, B-4).
+/// Irradiance below a corner of a horizontal rectangle a × b at height h, of radiance 1: the configuration factor of a
+/// differential element to a parallel rectangle, times π (Howell, catalogue of configuration factors, B-4).
 double cornerIrradiance(double a, double b, double h) {
   const double x = a / h, y = b / h, rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
   return 0.5 * (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry));
@@ -129,7 +106,8 @@ TEST(RectangleLight, ReadsTheFormFactorIntegral) {
     for (double z = -1.9; z < 2; z += 0.2) {
       const double expected = 500 * rectangleIrradiance(-0.5 - x, 0.7 - x, -0.4 - z, 0.5 - z, 1.2);
       const ProbeAnswer a = probe.at({x, 0, z}, {0, 1, 0});
-      worst = std::max(worst, (std::abs(a.irradiance.y / expected - 1) - 0.5 * 0.15 * 0.15 * 3 / 1.44) / a.relativeError);
+      worst =
+          std::max(worst, (std::abs(a.irradiance.y / expected - 1) - 0.5 * 0.15 * 0.15 * 3 / 1.44) / a.relativeError);
     }
   EXPECT_LT(worst, test::zThreshold(400));
 }
@@ -152,4 +130,4 @@ TEST(SealedBox, InsideALitRoomReadsExactlyZero) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::furnace_test

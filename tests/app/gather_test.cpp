@@ -7,7 +7,7 @@
 #include "tests/app/truth_scenes.h"
 #include "tests/support/statistics.h"
 
-namespace lucarne {
+namespace lucarne::gather_test {
 namespace {
 
 struct Comparison {
@@ -98,4 +98,4 @@ TEST(MapAndGatherOfDifferentRooms, DoNotAgree) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gather_test

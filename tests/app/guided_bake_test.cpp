@@ -5,7 +5,7 @@
 #include "tests/app/truth_scenes.h"
 #include "tests/tracer/mean.h"
 
-namespace lucarne {
+namespace lucarne::guided_bake_test {
 namespace {
 
 /// Light on each chart side, lm, over several bakes that differ in their seed alone.
@@ -51,4 +51,4 @@ TEST(GuidedBake, HasTheSameChartTotalsWithLessVariance) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::guided_bake_test

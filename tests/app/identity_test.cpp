@@ -4,7 +4,7 @@
 #include "tests/app/bake_fixture.h"
 #include "tracer/transport/any_sink.h"
 
-namespace lucarne {
+namespace lucarne::identity_test {
 namespace {
 
 using test::BakedScene;
@@ -138,4 +138,4 @@ TEST(Identity, ASceneWithoutLightBakesToBlack) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::identity_test

@@ -4,7 +4,7 @@
 #include "tests/app/bake_fixture.h"
 #include "tests/app/truth_scenes.h"
 
-namespace lucarne {
+namespace lucarne::known_error_test {
 namespace {
 
 using test::BakedScene;
@@ -139,4 +139,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::known_error_test

@@ -4,7 +4,7 @@
 #include "dlm/mean_direction.h"
 #include "tests/app/bake_fixture.h"
 
-namespace lucarne {
+namespace lucarne::moments_test {
 namespace {
 
 using test::BakedScene;
@@ -161,4 +161,4 @@ TEST(Moments, SidesWithoutDirectionsHaveNone) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::moments_test

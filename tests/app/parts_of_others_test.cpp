@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "distributed/merge.h"
 
-namespace lucarne {
+namespace lucarne::parts_of_others_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST_F(PartsOfOthers, AnotherLayoutOfTheSameSceneIsAnotherVersionOfLucarne) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::parts_of_others_test

@@ -10,7 +10,7 @@
 #include "app/rate_picture.h"
 #include "app/report_files.h"
 
-namespace lucarne {
+namespace lucarne::report_page_test {
 namespace {
 
 using nlohmann::json;
@@ -144,4 +144,4 @@ TEST(ReportFiles, GoSideBySideWhicheverIsNamed) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::report_page_test

@@ -8,7 +8,7 @@
 #include "tests/app/bake_fixture.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::report_pictures_test {
 namespace {
 
 using testing::HasSubstr;
@@ -115,4 +115,4 @@ TEST(ReportPictures, ThatCannotBeAreNamed) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::report_pictures_test

@@ -8,7 +8,7 @@
 #include "tests/support/scene_builder.h"
 #include "tracer/scene/gltf_reader.h"
 
-namespace lucarne {
+namespace lucarne::scene_difference_test {
 namespace {
 
 using testing::ElementsAre;
@@ -102,4 +102,4 @@ TEST(SceneDifference, InOneLineShowsAFewAndCountsTheRest) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::scene_difference_test

@@ -6,7 +6,7 @@
 #include "tests/app/bake_fixture.h"
 #include "tests/support/smooth_sphere.h"
 
-namespace lucarne {
+namespace lucarne::seams_test {
 namespace {
 
 using test::BakedScene;
@@ -137,4 +137,4 @@ TEST(SeamFit, ReachesLightByDirection) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::seams_test

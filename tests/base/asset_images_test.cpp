@@ -10,7 +10,7 @@
 #include "base/image_file.h"
 #include "tests/base/expect_error.h"
 
-namespace lucarne {
+namespace lucarne::asset_images_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST(AssetImages, MalformedOnesNeverCrashNorTakeMuchMemory) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::asset_images_test

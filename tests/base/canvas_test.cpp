@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lucarne {
+namespace lucarne::canvas_test {
 namespace {
 
 constexpr DisplayColour kBlack{0, 0, 0}, kRed{255, 0, 0};
@@ -62,4 +62,4 @@ TEST(Canvas, LettersThatTheFontDoesNotKnowBecomeQuestionMarks) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::canvas_test

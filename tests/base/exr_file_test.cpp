@@ -9,7 +9,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::exr_file_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -174,4 +174,4 @@ TEST(ExrFile, ASizeThatTheFileCannotHoldIsRefusedBeforeItIsAllocated) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::exr_file_test

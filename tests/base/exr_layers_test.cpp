@@ -8,7 +8,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::exr_layers_test {
 namespace {
 
 /// Layers of different sizes and channels, so that memory that serves again is seen to.
@@ -77,4 +77,4 @@ TEST(ExrLayers, ACutFileIsAnErrorThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::exr_layers_test

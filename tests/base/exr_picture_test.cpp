@@ -14,7 +14,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::exr_picture_test {
 namespace {
 
 namespace imf = OPENEXR_IMF_NAMESPACE;
@@ -177,4 +177,4 @@ TEST_F(ExrForged, EveryTruncationIsAnInputError) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::exr_picture_test

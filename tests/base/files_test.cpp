@@ -8,7 +8,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::files_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -136,4 +136,4 @@ TEST(CheckWritable, AgreesWithWritingAndLeavesNoTrace) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::files_test

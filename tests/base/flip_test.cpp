@@ -9,7 +9,7 @@
 
 #include "base/flip_colour.h"
 
-namespace lucarne {
+namespace lucarne::flip_test {
 namespace {
 
 ImageRgb picture(int width, int height, const std::function<Rgb(int, int)>& at) {
@@ -266,4 +266,4 @@ TEST(Flip, StaysFiniteWithBlackHugeAndBrokenPixels) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::flip_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace lucarne {
+namespace lucarne::hash_test {
 namespace {
 
 std::vector<std::uint8_t> someBytes(std::size_t count) {
@@ -68,4 +68,4 @@ TEST(Hash, OneBitChangesIt) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::hash_test

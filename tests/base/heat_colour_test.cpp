@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lucarne {
+namespace lucarne::heat_colour_test {
 namespace {
 
 TEST(HeatColour, GrowsLighterAllTheWay) {
@@ -21,4 +21,4 @@ TEST(HeatColour, GrowsLighterAllTheWay) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::heat_colour_test

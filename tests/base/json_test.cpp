@@ -8,7 +8,7 @@
 
 #include "tests/base/expect_error.h"
 
-namespace lucarne {
+namespace lucarne::json_test {
 namespace {
 
 using nlohmann::json;
@@ -98,4 +98,4 @@ TEST(JsonView, NamesFileAndPlaceOfWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::json_test

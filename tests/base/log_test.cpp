@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lucarne {
+namespace lucarne::log_test {
 namespace {
 
 TEST(Log, GoesToStderrOnlyAndTakesTextAsItIs) {
@@ -29,4 +29,4 @@ TEST(Log, QuietLeavesErrors) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::log_test

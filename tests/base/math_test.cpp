@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace lucarne {
+namespace lucarne::math_test {
 namespace {
 
 constexpr long double kPi = 3.141592653589793238462643383279502884L;
@@ -189,4 +189,4 @@ TEST(Srgb, EncodingUndoesDecodingAndClamps) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::math_test

@@ -5,7 +5,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne {
+namespace lucarne::picture_file_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -110,4 +110,4 @@ TEST(DecodeImage, OtherKindsAndDamageAreInputErrorsWithTheGivenName) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::picture_file_test

@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-namespace lucarne {
+namespace lucarne::progress_model_test {
 namespace {
 
 constexpr double kStep = 0.25;  // seconds between updates
@@ -142,4 +142,4 @@ TEST(ProgressModel, EarlierRunsCountAsDoneNotAsSpeed) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::progress_model_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace lucarne {
+namespace lucarne::progress_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -184,4 +184,4 @@ TEST(ProgressLine, NeverWrapsAndSurvivesStandstillAndGoingBack) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::progress_test

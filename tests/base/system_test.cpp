@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 
-namespace lucarne {
+namespace lucarne::system_test {
 namespace {
 
 TEST(Memory, PeakGrowsWithWhatIsTouched) {
@@ -38,4 +38,4 @@ TEST(System, DescriptionHasNoHostName) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::system_test

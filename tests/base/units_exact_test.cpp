@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 
-namespace lucarne {
+namespace lucarne::units_exact_test {
 namespace {
 
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
@@ -51,4 +51,4 @@ TEST(FormatExactCount, IsAsShortAsItCanBe) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::units_exact_test

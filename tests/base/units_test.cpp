@@ -7,7 +7,7 @@
 
 #include "tests/base/expect_error.h"
 
-namespace lucarne {
+namespace lucarne::units_test {
 namespace {
 
 using ::testing::AllOf;
@@ -134,4 +134,4 @@ TEST(FormatOthers, AreShort) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::units_test

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace lucarne {
+namespace lucarne::vec_pair_test {
 namespace {
 
 TEST(Vec3dPair, GivesTheBitsOfVec3d) {
@@ -26,4 +26,4 @@ TEST(Vec3dPair, GivesTheBitsOfVec3d) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::vec_pair_test

@@ -25,9 +25,8 @@ namespace {
 
 constexpr std::uint64_t kChunk = 1024;  // photons between two looks at the clock
 constexpr double kSlice = 0.1;          // seconds: what else the machine does changes little within a round
-constexpr int kLeastRounds = 9;
-// All 14 directions on every side, as glossy scenes need them; on diffuse ones a bake would keep one map. Light maps of
-// this many texels are far larger than the caches.
+constexpr int kLeastRounds = 9, kWays = 5;
+// With all directions: far larger than the caches.
 constexpr std::uint64_t kTexels = 400'000;
 
 double threadCpuSeconds() {
@@ -48,6 +47,10 @@ struct Work {
   }
 };
 
+struct BenchPlans {
+  BakePlan usual, large;
+};
+
 struct NoSink {
   void hit(const PhotonHit&) {}
   void endPhoton() {}
@@ -55,6 +58,16 @@ struct NoSink {
 
 /// Rays of the photons of a range.
 using Trace = std::function<std::uint64_t(IndexRange)>;
+
+/// Photons of the scene into the sink, which the function keeps.
+template <class Sink>
+Trace tracing(const PhotonScene& scene, std::shared_ptr<Sink> sink) {
+  return [&scene, sink, ledger = Ledger{}](IndexRange range) mutable {
+    const std::uint64_t before = ledger.rays;
+    tracePhotons(scene, range, PhotonSeed(0, BakeOptions{}.sampler), {}, *sink, ledger);
+    return ledger.rays - before;
+  };
+}
 
 /// Photons on this thread until `enough(seconds of its CPU time)`. No photon is taken twice.
 template <class Enough>
@@ -92,72 +105,72 @@ Work workOnTwo(std::atomic<std::uint64_t>& next, const std::array<Trace, 2>& tra
   return done[0] += done[1];
 }
 
-/// The tracer over one scene in the four ways that are compared.
+/// Photons of a scene, counted in light maps of one plan.
+class Counted {
+ public:
+  Counted(const PhotonScene& scene, const BakePlan& plan)
+      : scene_(scene), plan_(plan), map_(scene.scene(), plan.charts, plan.layout, plan.tallies), own_(plan.tallies) {}
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+  /// On one thread.
+  Trace alone() { return counting<false>(own_); }
+  /// On two, as a bake would: with tallies of their own where they may have them.
+  std::array<Trace, 2> together() {
+    if (shared()) return {counting<true>(own_), counting<true>(own_)};
+    if (!copy_) copy_ = std::make_unique<Tallies>(plan_.tallies);
+    return {counting<false>(own_), counting<false>(*copy_)};
+  }
+  bool shared() const { return 2 * plan_.tallies.bytes() > PhotonRunOptions{}.privateTallyBytes; }
+
+ private:
+  template <bool shared>
+  Trace counting(const Tallies& tallies) {
+    return tracing(
+        scene_, std::make_shared<DepositSink<shared>>(map_, plan_.tallies, plan_.directions, LightPart::all, tallies));
+  }
+
+  const PhotonScene& scene_;
+  const BakePlan& plan_;
+  TexelMap map_;
+  Tallies own_;
+  std::unique_ptr<Tallies> copy_;  // of the second thread
+};
+
+/// The tracer over one scene in the five ways that are compared.
 class Contest {
  public:
-  Contest(const PhotonScene& scene, const BakePlan& plan)
-      : raw_(scene),
-        map_(scene.scene(), plan.charts, plan.layout, plan.tallies),
-        own_(plan.tallies),
-        shared_(2 * plan.tallies.bytes() > PhotonRunOptions{}.privateTallyBytes) {
-    if (!shared_) copy_ = std::make_unique<Tallies>(plan.tallies);
-    const auto depositIn = [&](auto sink) -> Trace {
-      return [&scene, sink, ledger = Ledger{}](IndexRange range) mutable {
-        const std::uint64_t before = ledger.rays;
-        tracePhotons(scene, range, PhotonSeed(0, BakeOptions{}.sampler), {}, *sink, ledger);
-        return ledger.rays - before;
-      };
-    };
-    const auto sink = [&]<bool shared>(const Tallies& tallies) {
-      return std::make_shared<DepositSink<shared>>(map_, plan.tallies, plan.directions, LightPart::all, tallies);
-    };
-    trace_ = depositIn(std::make_shared<NoSink>());
-    deposit_ = depositIn(sink.template operator()<false>(own_));
-    if (shared_)
-      depositOnTwo_ = {depositIn(sink.template operator()<true>(own_)),
-                       depositIn(sink.template operator()<true>(own_))};
-    else
-      depositOnTwo_ = {depositIn(sink.template operator()<false>(own_)),
-                       depositIn(sink.template operator()<false>(*copy_))};
+  Contest(const PhotonScene& scene, const BenchPlans& plans)
+      : raw_(scene), usual_(scene, plans.usual), large_(scene, plans.large) {
+    const Trace bare = [this](IndexRange r) { return raw_.trace(r.begin, r.end); };
+    alone_ = {bare, tracing(scene, std::make_shared<NoSink>()), usual_.alone(), large_.alone()};
+    together_ = usual_.together();
   }
-  Contest(const Contest&) = delete;
-  Contest& operator=(const Contest&) = delete;
 
   struct Round {
-    Work raw, trace, deposit, depositOnTwo;
+    Work raw, trace, deposit, depositLarge, depositOnTwo;
   };
   /// `number` decides who begins.
   Round run(int number, double slice) {
+    constexpr std::array kAlone = {&Round::raw, &Round::trace, &Round::deposit, &Round::depositLarge};
     Round round;
     const auto enough = [slice](double seconds) { return seconds >= slice; };
-    for (int i = 0; i < 4; ++i) {
-      switch ((number + i) % 4) {
-        case 0:
-          round.raw = work(
-              next_, [this](IndexRange r) { return raw_.trace(r.begin, r.end); }, enough);
-          break;
-        case 1:
-          round.trace = work(next_, trace_, enough);
-          break;
-        case 2:
-          round.deposit = work(next_, deposit_, enough);
-          break;
-        default:
-          round.depositOnTwo = workOnTwo(next_, depositOnTwo_, slice);
-      }
+    for (std::size_t i = 0; i <= kAlone.size(); ++i) {
+      const std::size_t which = (static_cast<std::size_t>(number) + i) % (kAlone.size() + 1);
+      if (which < kAlone.size())
+        round.*kAlone[which] = work(next_, alone_[which], enough);
+      else
+        round.depositOnTwo = workOnTwo(next_, together_, slice);
     }
     return round;
   }
-  bool sharedTallies() const { return shared_; }
+  bool sharedTallies() const { return usual_.shared(); }
 
  private:
   RawTracer raw_;
-  TexelMap map_;
-  Tallies own_;
-  bool shared_;
-  std::unique_ptr<Tallies> copy_;  // of the second thread
-  Trace trace_, deposit_;
-  std::array<Trace, 2> depositOnTwo_;
+  Counted usual_, large_;
+  std::array<Trace, 4> alone_;
+  std::array<Trace, 2> together_;
   std::atomic<std::uint64_t> next_{0};
 };
 
@@ -180,6 +193,7 @@ void summarize(const std::vector<Contest::Round>& rounds, SceneResult& result) {
   result.depositRaysPerSecond = spread(rounds, [](const Round& r) { return r.deposit.rate(); });
   result.traceOverRaw = spread(rounds, [](const Round& r) { return r.trace.rate() / r.raw.rate(); });
   result.depositOverRaw = spread(rounds, [](const Round& r) { return r.deposit.rate() / r.raw.rate(); });
+  result.largeOverRaw = spread(rounds, [](const Round& r) { return r.depositLarge.rate() / r.raw.rate(); });
   result.twoThreadsOverOne =
       spread(rounds, [](const Round& r) { return 2 * r.depositOnTwo.rate() / r.deposit.rate(); });
   Round sum;
@@ -204,7 +218,9 @@ std::uint64_t sceneBytes(const Scene& scene) {
                  scene.sourceVertex, scene.triangles, scene.smooth);
 }
 
-BakePlan makeBenchPlan(const Scene& scene) {
+BakePlan makeDefaultPlan(const Scene& scene) { return makePlan(scene, {}); }
+
+BakePlan makeLargePlan(const Scene& scene) {
   BakeOptions options;
   options.texelsPerMetre = 1e6;  // the budget decides
   options.texelBudget = kTexels;
@@ -232,16 +248,17 @@ SceneResult measure(const std::string& name, const Scene& scene, double seconds)
   result.name = name;
   result.triangles = scene.triangles.size();
   result.sceneBytes = sceneBytes(scene);
-  const BakePlan plan = makeBenchPlan(scene);
+  const BenchPlans plans{makeDefaultPlan(scene), makeLargePlan(scene)};
   auto photonScene = std::make_unique<PhotonScene>(scene);
   result.rayCaster = photonScene->rayCaster().description();
-  result.texels = plan.layout.texelCount;
-  result.tallyBytes = plan.tallies.bytes();
+  result.texels = plans.usual.layout.texelCount;
+  result.tallyBytes = plans.usual.tallies.bytes();
+  result.largeTallyBytes = plans.large.tallies.bytes();
   {
-    Contest contest(*photonScene, plan);
+    Contest contest(*photonScene, plans);
     result.sharedTallies = contest.sharedTallies();
     contest.run(0, 4 * kSlice);  // to fill the caches and touch the tallies
-    const int count = std::max(kLeastRounds, static_cast<int>(seconds / (4 * kSlice)));
+    const int count = std::max(kLeastRounds, static_cast<int>(seconds / (kWays * kSlice)));
     const auto start = std::chrono::steady_clock::now();
     // A busy machine gets fewer rounds, not more time.
     const auto late = [&] {
@@ -249,7 +266,7 @@ SceneResult measure(const std::string& name, const Scene& scene, double seconds)
     };
     std::vector<Contest::Round> rounds;
     for (int i = 0; i < count && (i < kLeastRounds || !late()); ++i)
-      rounds.push_back(contest.run(i, seconds / (4 * count)));
+      rounds.push_back(contest.run(i, seconds / (kWays * count)));
     summarize(rounds, result);
   }
   result.embreeBytes = embreeBytes(std::move(photonScene));

@@ -26,19 +26,24 @@ struct Spread {
 struct SceneResult {
   std::string name, rayCaster;  // rayCaster: RayCaster::description()
   std::uint64_t triangles = 0, texels = 0;
-  std::uint64_t sceneBytes = 0, embreeBytes = 0, tallyBytes = 0;  // of the arrays of Scene; one copy of the tallies
+  std::uint64_t sceneBytes = 0, embreeBytes = 0;      // sceneBytes: of the arrays of Scene
+  std::uint64_t tallyBytes = 0, largeTallyBytes = 0;  // one copy of each kind of tallies
   MemoryUse memory;
   bool sharedTallies = false;  // as PhotonRun decides for two threads
   int rounds = 0;
   double rawRaysPerPhoton = 0, raysPerPhoton = 0;
   Spread rawRaysPerSecond, traceRaysPerSecond, depositRaysPerSecond;
   Spread traceOverRaw;       // path logic whole, hits thrown away
-  Spread depositOverRaw;     // hits counted in tallies of this thread's own
-  Spread twoThreadsOverOne;  // both with deposits; 2 is the best there is
+  Spread depositOverRaw;     // hits counted as by a bake with default settings, in tallies of this thread's own
+  Spread largeOverRaw;       // the same in the large plan
+  Spread twoThreadsOverOne;  // both with deposits, default settings; 2 is the best there is
 };
 
-/// The light maps that all is measured with.
-BakePlan makeBenchPlan(const Scene& scene);
+/// Light maps as a bake with default settings makes them: one irradiance map where all is diffuse.
+BakePlan makeDefaultPlan(const Scene& scene);
+
+/// 400,000 texels with all 14 directions on every side, as if all were glossy: 120 MB and more.
+BakePlan makeLargePlan(const Scene& scene);
 
 /// Of the arrays of Scene.
 std::uint64_t sceneBytes(const Scene& scene);

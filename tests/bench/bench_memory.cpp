@@ -35,7 +35,7 @@ MemoryUse bakeAndCount(const Scene& scene) {
   malloc_trim(0);
   const std::uint64_t before = processMemory("VmRSS") - sceneBytes(scene);
   forgetPeak();
-  const BakePlan plan = makeBenchPlan(scene);
+  const BakePlan plan = makeLargePlan(scene);
   auto photonScene = std::make_unique<PhotonScene>(scene);
   const TexelMap map(scene, plan.charts, plan.layout, plan.tallies);
   Tallies tallies(plan.tallies);

@@ -15,8 +15,8 @@ struct MemoryUse {
   double heldOver() const { return static_cast<double>(held) / static_cast<double>(embree + tallies); }
 };
 
-/// In a process of its own, that freed memory of other measurements does not count: call it before this process starts
-/// threads. The scene's arrays are in it, its images are not.
+/// With the large plan of bench_measure.h. In a process of its own, that freed memory of other measurements does not
+/// count: call it before this process starts threads. The scene's arrays are in it, its images are not.
 MemoryUse measureMemory(const Scene& scene);
 
 }  // namespace lucarne::bench

@@ -60,6 +60,7 @@ json toJson(const SceneResult& r) {
           {"scene_bytes", r.sceneBytes},
           {"embree_bytes", r.embreeBytes},
           {"tally_bytes", r.tallyBytes},
+          {"large_tally_bytes", r.largeTallyBytes},
           {"peak_bytes", r.memory.peak},
           {"held_bytes", r.memory.held},
           {"memory_over_embree_and_tallies", r.memory.peakOver()},
@@ -75,6 +76,8 @@ json toJson(const SceneResult& r) {
           {"trace_over_raw_quartiles", quartiles(r.traceOverRaw)},
           {"with_deposit_over_raw", r.depositOverRaw.median},
           {"with_deposit_over_raw_quartiles", quartiles(r.depositOverRaw)},
+          {"with_large_deposit_over_raw", r.largeOverRaw.median},
+          {"with_large_deposit_over_raw_quartiles", quartiles(r.largeOverRaw)},
           {"two_threads_over_one", r.twoThreadsOverOne.median},
           {"two_threads_over_one_quartiles", quartiles(r.twoThreadsOverOne)}};
 }
@@ -94,13 +97,14 @@ void printJson(const std::vector<SceneResult>& results, const Arguments& argumen
 void printTable(const std::vector<SceneResult>& results) {
   std::printf("%s\n%s\nRates: million rays per second of CPU time. Ratios: medians, in brackets their quartiles.\n\n",
               describeHost().cpu.c_str(), buildName().c_str());
-  std::printf("%-12s %9s %7s %6s  %-18s  %-18s  %-18s  %s\n", "scene", "triangles", "tallies", "raw", "trace/raw",
-              "with deposit/raw", "2 threads/1", "memory/(Embree + tallies), peak, held");
+  std::printf("%-12s %9s %7s %6s  %-18s  %-18s  %-18s  %-18s  %s\n", "scene", "triangles", "tallies", "raw",
+              "trace/raw", "with deposit/raw", "large deposit/raw", "2 threads/1",
+              "memory/(Embree + tallies), peak, held");
   const auto print = [](const Spread& s) { std::printf("  %.3f (%.3f-%.3f)", s.median, s.low, s.high); };
   for (const SceneResult& r : results) {
     std::printf("%-12s %9llu %4.0f MB %6.2f", r.name.c_str(), static_cast<unsigned long long>(r.triangles),
                 1e-6 * static_cast<double>(r.tallyBytes), 1e-6 * r.rawRaysPerSecond.median);
-    for (const Spread& s : {r.traceOverRaw, r.depositOverRaw, r.twoThreadsOverOne}) print(s);
+    for (const Spread& s : {r.traceOverRaw, r.depositOverRaw, r.largeOverRaw, r.twoThreadsOverOne}) print(s);
     std::printf("  %.2f %.2f\n", r.memory.peakOver(), r.memory.heldOver());
   }
 }

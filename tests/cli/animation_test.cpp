@@ -2,7 +2,7 @@
 #include "tests/cli/driver_leaks.h"
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::animation_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,4 +106,4 @@ TEST_F(Animation, OptionsThatDoNotGoTogetherAreRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::animation_test

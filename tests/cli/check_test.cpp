@@ -3,7 +3,7 @@
 
 #include "tests/cli/program.h"
 
-namespace lucarne::test {
+namespace lucarne::test::check_test {
 namespace {
 
 using nlohmann::json;
@@ -150,4 +150,4 @@ TEST_F(CheckProgram, WritesNothing) {
 }
 
 }  // namespace
-}  // namespace lucarne::test
+}  // namespace lucarne::test::check_test

@@ -1,7 +1,7 @@
 // Pictures and light maps judged by the program.
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::compare_test {
 namespace {
 
 class Compare : public test::ProgramTest {
@@ -43,4 +43,4 @@ TEST_F(Compare, WrongUsageIsRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::compare_test

@@ -4,7 +4,7 @@
 
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::direct_test {
 namespace {
 
 class Gathered : public test::ProgramTest {
@@ -83,4 +83,4 @@ TEST_F(Gathered, TeamsOfRanksGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direct_test

@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::interrupt_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -183,4 +183,4 @@ TEST_F(Interrupt, APreviewIsPlayableAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::interrupt_test

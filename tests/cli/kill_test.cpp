@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::kill_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ TEST_F(Kill, ADamagedNewestStateFallsBackWithAMessage) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::kill_test

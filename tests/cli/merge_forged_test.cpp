@@ -2,7 +2,7 @@
 #include "distributed/part_file.h"
 #include "tests/cli/merge_fixture.h"
 
-namespace lucarne {
+namespace lucarne::merge_forged_test {
 namespace {
 
 class ForgedParts : public test::MergeTest {
@@ -122,4 +122,4 @@ TEST_F(ForgedParts, AStateOfAnotherSizeIsPassedOver) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::merge_forged_test

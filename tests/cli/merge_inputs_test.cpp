@@ -1,7 +1,7 @@
 // What a merge can be given, where it writes, and what it says of photons that are missing.
 #include "tests/cli/merge_fixture.h"
 
-namespace lucarne {
+namespace lucarne::merge_inputs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -222,4 +222,4 @@ TEST_F(MergeInputs, TheReportIsThatOfTheWholeBake) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::merge_inputs_test

@@ -1,7 +1,7 @@
 // Every way to spoil a part or a merge that we could think of, and what the program says to it.
 #include "tests/cli/merge_fixture.h"
 
-namespace lucarne {
+namespace lucarne::merge_spoiled_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,4 +215,4 @@ TEST_F(SpoiledMerge, PhotonsAreNeverCountedTwice) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::merge_spoiled_test

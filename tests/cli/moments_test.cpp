@@ -1,7 +1,7 @@
 // --moments through the program: pieces, states and what may not be put together.
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::moments_test {
 namespace {
 
 using test::kQuickScene;
@@ -67,4 +67,4 @@ TEST_F(Moments, WithoutThemNothingSaysOfThem) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::moments_test

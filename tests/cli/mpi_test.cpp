@@ -4,7 +4,7 @@
 
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::mpi_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -207,4 +207,4 @@ TEST_F(Mpi, WithoutALauncherTheProgramDoesNotStartMpi) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::mpi_test

@@ -2,7 +2,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/changed_scene.h"
 
-namespace lucarne::test {
+namespace lucarne::test::plan_test {
 namespace {
 
 using nlohmann::json;
@@ -85,4 +85,4 @@ TEST_F(PlanProgram, FilesThatAreNoPlanAreBadInput) {
 }
 
 }  // namespace
-}  // namespace lucarne::test
+}  // namespace lucarne::test::plan_test

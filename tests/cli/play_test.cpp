@@ -1,7 +1,7 @@
 // play, in a real window: keys, mouse, size, its end, maps that change; and where there is no window to be had.
 #include "tests/cli/display.h"
 
-namespace lucarne {
+namespace lucarne::play_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -238,4 +238,4 @@ TEST_F(PlayNowhere, WithoutADisplayItPointsToRender) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::play_test

@@ -2,7 +2,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/changed_scene.h"
 
-namespace lucarne::test {
+namespace lucarne::test::rebake_test {
 namespace {
 
 using nlohmann::json;
@@ -132,4 +132,4 @@ TEST_F(Rebake, InfoTellsWhetherAPartStillMatchesAndWhatDiffers) {
 }
 
 }  // namespace
-}  // namespace lucarne::test
+}  // namespace lucarne::test::rebake_test

@@ -5,7 +5,7 @@
 #include "tests/cli/driver_leaks.h"
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::render_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,4 +147,4 @@ TEST_F(Render, PlayRefusesWrongValuesBeforeItLooksForADisplay) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::render_test

@@ -2,7 +2,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/changed_scene.h"
 
-namespace lucarne::test {
+namespace lucarne::test::report_test {
 namespace {
 
 using nlohmann::json;
@@ -118,4 +118,4 @@ TEST_F(ReportProgram, OfAMergeIsThatOfTheBake) {
 }
 
 }  // namespace
-}  // namespace lucarne::test
+}  // namespace lucarne::test::report_test

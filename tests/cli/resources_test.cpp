@@ -1,7 +1,7 @@
 // Memory and disks that are too small: refused before the work where that can be known, and no photon lost where not.
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::resources_test {
 namespace {
 
 using test::Background;
@@ -127,4 +127,4 @@ TEST_F(Resources, AFolderOfStatesThatVanishesIsMadeAgain) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::resources_test

@@ -1,7 +1,7 @@
 // --resume: what it goes on with, and what it refuses.
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,4 +133,4 @@ TEST_F(Resume, TwoBakesOfOneOutputAreNotMixed) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::resume_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::shared_bake_test {
 namespace {
 
 constexpr std::uint64_t kPhotons = 120'000;
@@ -113,4 +113,4 @@ TEST_F(SharedBake, OldTalliesGiveNewMapsWithoutTracing) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::shared_bake_test

@@ -3,7 +3,7 @@
 
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::stop_rules_test {
 namespace {
 
 using nlohmann::json;
@@ -111,4 +111,4 @@ TEST_F(StopRules, AReaderOfTheProgressThatGoesAwayEndsNothing) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::stop_rules_test

@@ -14,7 +14,7 @@
 #include "tests/distributed/part_fixture.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::bake_job_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ TEST_F(BakeJobs, ProbeRaysTellScenesApart) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::bake_job_test

@@ -12,7 +12,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/distributed/part_fixture.h"
 
-namespace lucarne {
+namespace lucarne::checkpoint_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -360,4 +360,4 @@ TEST(CheckpointClock, ZeroIsNever) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::checkpoint_test

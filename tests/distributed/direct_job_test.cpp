@@ -10,7 +10,7 @@
 #include "tests/distributed/part_fixture.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::direct_job_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -242,4 +242,4 @@ TEST_P(DirectJobs, SettingsTellTheTwoWaysApart) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direct_job_test

@@ -12,7 +12,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/distributed/part_fixture.h"
 
-namespace lucarne {
+namespace lucarne::exr_rows_test {
 namespace {
 
 using Channels = std::map<std::string, std::vector<std::uint32_t>>;
@@ -155,4 +155,4 @@ TEST(ExrRows, SizesAreKnownBeforehand) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::exr_rows_test

@@ -9,7 +9,7 @@
 #include "base/units.h"
 #include "tests/distributed/part_fixture.h"
 
-namespace lucarne {
+namespace lucarne::index_set_test {
 namespace {
 
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
@@ -158,4 +158,4 @@ TEST(IndexSetText, IsExactShortAndCut) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::index_set_test

@@ -7,7 +7,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/distributed/part_fixture.h"
 
-namespace lucarne {
+namespace lucarne::merge_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -255,4 +255,4 @@ TEST(Difference, IsEmptyForOneBakeAndNamesTheFirstDifferenceElse) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::merge_test

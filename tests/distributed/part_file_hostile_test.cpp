@@ -10,7 +10,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/distributed/part_fixture.h"
 
-namespace lucarne {
+namespace lucarne::part_file_hostile_test {
 namespace {
 
 using nlohmann::json;
@@ -243,4 +243,4 @@ TEST_F(HostilePart, OtherFilesAreNoParts) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::part_file_hostile_test

@@ -8,7 +8,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/distributed/part_fixture.h"
 
-namespace lucarne {
+namespace lucarne::part_file_test {
 namespace {
 
 using test::kMostTally;
@@ -197,4 +197,4 @@ TEST(PartFile, WritingReplacesWholeFilesAndLeavesNothingBeside) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::part_file_test

@@ -7,7 +7,7 @@
 
 #include "tests/distributed/part_fixture.h"
 
-namespace lucarne {
+namespace lucarne::range_dealer_test {
 namespace {
 
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
@@ -92,4 +92,4 @@ TEST(RangeDealer, PiecesThatTookNoTimeTellNothing) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::range_dealer_test

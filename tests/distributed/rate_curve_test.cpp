@@ -7,7 +7,7 @@
 
 #include "tests/base/expect_error.h"
 
-namespace lucarne {
+namespace lucarne::rate_curve_test {
 namespace {
 
 /// A point every quarter of a second, a million photons a second.
@@ -77,4 +77,4 @@ TEST(RateCurve, RefusesListsThatNoBakeMakes) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::rate_curve_test

@@ -11,7 +11,7 @@
 #include "tests/distributed/part_fixture.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::stop_rules_test {
 namespace {
 
 constexpr std::uint64_t kFirst = 4096;
@@ -217,4 +217,4 @@ TEST_F(StopRule, ProgressTellsOfCheckpointsToCome) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::stop_rules_test

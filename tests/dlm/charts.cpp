@@ -2,7 +2,7 @@
 
 #include "tests/dlm/charts_invariants.h"
 
-namespace lucarne::test {
+namespace lucarne::test::charts_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -300,4 +300,4 @@ TEST(Charts, SayNothingOnStderr) {
 }
 
 }  // namespace
-}  // namespace lucarne::test
+}  // namespace lucarne::test::charts_test

@@ -7,7 +7,7 @@
 #include "tests/dlm/charts_invariants.h"
 #include "tracer/scene/gltf_reader.h"
 
-namespace lucarne::test {
+namespace lucarne::test::charts_scenes_test {
 namespace {
 
 struct RealScene {
@@ -61,4 +61,4 @@ INSTANTIATE_TEST_SUITE_P(Real, ChartsOfScenes,
                          [](const auto& scene) { return std::filesystem::path(scene.param.path).stem().string(); });
 
 }  // namespace
-}  // namespace lucarne::test
+}  // namespace lucarne::test::charts_scenes_test

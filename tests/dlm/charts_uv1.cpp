@@ -7,7 +7,7 @@
 #include "dlm/texel_layout.h"
 #include "tests/dlm/charts_invariants.h"
 
-namespace lucarne {
+namespace lucarne::charts_uv1_test {
 namespace {
 
 using test::SceneBuilder;
@@ -115,4 +115,4 @@ TEST(Uv1Charts, LayOutCoversTheirSurface) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::charts_uv1_test

@@ -7,7 +7,7 @@
 #include "tests/support/scene_builder.h"
 #include "tracer/transport/any_sink.h"
 
-namespace lucarne {
+namespace lucarne::deposit_test {
 namespace {
 
 /// What a sink should have counted, told apart by hand: photon by photon, texel by texel.
@@ -68,4 +68,4 @@ TEST(DepositSink, APhotonCountsOnceInATexelWithItsWholeShareSquared) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::deposit_test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace lucarne {
+namespace lucarne::direction_set_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -236,4 +236,4 @@ TEST(DirectionSet, RefusesImpossibleCounts) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direction_set_test

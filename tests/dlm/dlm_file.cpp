@@ -5,7 +5,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/dlm/dlm_file_fixture.h"
 
-namespace lucarne {
+namespace lucarne::dlm_file_test {
 namespace {
 
 using test::BakedScene;
@@ -260,4 +260,4 @@ TEST(DlmFile, BrokenMapsAreRefusedBeforeAnythingIsWritten) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::dlm_file_test

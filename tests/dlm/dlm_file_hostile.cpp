@@ -6,7 +6,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/dlm/dlm_file_fixture.h"
 
-namespace lucarne {
+namespace lucarne::dlm_file_hostile_test {
 namespace {
 
 using nlohmann::json;
@@ -290,4 +290,4 @@ TEST_F(HostileDlm, RandomlyAlteredManifestsAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::dlm_file_hostile_test

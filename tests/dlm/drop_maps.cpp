@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace lucarne {
+namespace lucarne::drop_maps_test {
 namespace {
 
 constexpr int kWidth = 5, kHeight = 4;
@@ -132,4 +132,4 @@ TEST(DropFaintMaps, AMapThatIsFaintOnAverageButBrightAtOneTexelStays) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::drop_maps_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace lucarne {
+namespace lucarne::kernel_levels_test {
 namespace {
 
 constexpr int kWidth = 32, kHeight = 24;
@@ -134,4 +134,4 @@ TEST(KernelLevels, TexelsWithoutSurfaceCopyANeighbourOfAnyLevel) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::kernel_levels_test

@@ -5,7 +5,7 @@
 #include "tests/support/scene_builder.h"
 #include "tracer/optics/phong.h"
 
-namespace lucarne {
+namespace lucarne::lobe_width_test {
 namespace {
 
 Material coat(float exponent) {
@@ -56,4 +56,4 @@ TEST(LobeWidth, MirrorsAreNamedWithFiniteExponents) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::lobe_width_test

@@ -7,7 +7,7 @@
 
 #include "dlm/side_resolver.h"
 
-namespace lucarne {
+namespace lucarne::local_linear_test {
 namespace {
 
 constexpr int kWidth = 12, kHeight = 9;
@@ -91,4 +91,4 @@ TEST(LocalLinear, ARowAColumnAndATexelOfSurfaceAreNoTrouble) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::local_linear_test

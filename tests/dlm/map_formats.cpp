@@ -8,7 +8,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/dlm/dlm_file_fixture.h"
 
-namespace lucarne {
+namespace lucarne::map_formats_test {
 namespace {
 
 using test::BakedScene;
@@ -149,4 +149,4 @@ TEST_F(HostileFormats, FormatsThatAreUnknownOrNotThoseOfTheChannelsAreRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::map_formats_test

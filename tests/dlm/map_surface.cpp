@@ -5,7 +5,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/dlm/dlm_file_fixture.h"
 
-namespace lucarne {
+namespace lucarne::map_surface_test {
 namespace {
 
 using test::BakedScene;
@@ -61,4 +61,4 @@ TEST(MapSurface, LayoutsAreTheSameOnlyWithTheSameSurfacesInTheSameRectangles) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::map_surface_test

@@ -8,7 +8,7 @@
 #include "dlm/direction_set_cells.h"
 #include "dlm/lobe_width.h"
 
-namespace lucarne {
+namespace lucarne::mean_direction_test {
 namespace {
 
 constexpr std::array kCounts = {1, 2, 3, 4, 5, 7, 14, 32, 64, 100, 256, 1000};
@@ -99,4 +99,4 @@ TEST(MeanDirection, MomentsOfConstantLightAgreeWithQuadrature) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::mean_direction_test

@@ -4,7 +4,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/dlm/dlm_file_fixture.h"
 
-namespace lucarne {
+namespace lucarne::moments_file_test {
 namespace {
 
 using nlohmann::json;
@@ -149,4 +149,4 @@ TEST_F(HostileMoments, AManifestThatSaysNonsenseOfThemIsRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::moments_file_test

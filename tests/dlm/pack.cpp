@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace lucarne::test {
+namespace lucarne::test::pack_test {
 namespace {
 
 double fill(const std::vector<RectSize>& sizes, const Packing& packing, int gutter) {
@@ -150,4 +150,4 @@ TEST(Pack, IsTheSameEachTime) {
 TEST(Pack, OfNothingIsNoPage) { EXPECT_EQ(packRectangles({}, {}).pageCount, 0); }
 
 }  // namespace
-}  // namespace lucarne::test
+}  // namespace lucarne::test::pack_test

@@ -9,7 +9,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/dlm/dlm_file_fixture.h"
 
-namespace lucarne {
+namespace lucarne::probe_test {
 namespace {
 
 using test::BakedScene;
@@ -283,4 +283,4 @@ TEST(Prober, ManyTrianglesGiveTheSameAnswerAsOneByOneSearch) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::probe_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace lucarne {
+namespace lucarne::texel_error_test {
 namespace {
 
 TEST(TexelError, TheNeighbourhoodGrowsUntilItHasPhotonsFromAnySmallestRadius) {
@@ -79,4 +79,4 @@ TEST(TexelError, NeighboursCountForAllWhereThereAreNoPhotonsAndForNothingWhereTh
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::texel_error_test

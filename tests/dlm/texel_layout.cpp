@@ -7,7 +7,7 @@
 #include "dlm/texel_layout_coverage.h"
 #include "tests/dlm/charts_invariants.h"
 
-namespace lucarne::test {
+namespace lucarne::test::texel_layout_test {
 namespace {
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -224,4 +224,4 @@ TEST(TexelLayout, ChartsThatAskForADensityOfTheirOwnGetItAlsoUnderABudget) {
 }
 
 }  // namespace
-}  // namespace lucarne::test
+}  // namespace lucarne::test::texel_layout_test

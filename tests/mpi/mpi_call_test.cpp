@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "distributed/mpi/mpi_sum.h"
 
-namespace lucarne {
+namespace lucarne::mpi_call_test {
 namespace {
 
 /// MPI in this process alone, for all tests of the program: it can be started only once.
@@ -49,4 +49,4 @@ TEST(MpiSum, OfOneRankIsItsOwnTallies) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::mpi_call_test

@@ -19,7 +19,7 @@
 #include "tracer/optics/phong.h"
 #include "tracer/optics/surface.h"
 
-namespace lucarne {
+namespace lucarne::baked_furnace_test {
 namespace {
 
 constexpr double kRadius = 0.65, kPlate = 0.8;  // metres: of the sphere about the origin; x of the plate
@@ -205,4 +205,4 @@ TEST_P(BakedFurnace, ShowsEveryCoatByItsAlbedo) {
 INSTANTIATE_TEST_SUITE_P(Directions, BakedFurnace, testing::Values(14, 64, 256));
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::baked_furnace_test

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace lucarne {
+namespace lucarne::benchmark_test {
 namespace {
 
 TEST(Benchmark, PercentilesAreValuesThatSoManyDoNotExceed) {
@@ -47,4 +47,4 @@ TEST(Benchmark, TellsTimesInMillisecondsAndNoGpuTimeThatIsNotTrue) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::benchmark_test

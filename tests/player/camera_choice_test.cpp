@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::camera_choice_test {
 namespace {
 
 Scene sceneWithCameras() {
@@ -110,4 +110,4 @@ TEST(CameraChoice, AOneSidedPlateIsSeenFromItsFront) {
 TEST(CameraChoice, NothingToSeeIsNoFailure) { expectUpright(automaticCamera(Scene{})); }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::camera_choice_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace lucarne {
+namespace lucarne::cell_tables_test {
 namespace {
 
 std::vector<Vec3d> normalsAround(int count) {
@@ -88,4 +88,4 @@ TEST(CellTable, ACellBelowTheHorizonKeepsItsDirectionAndCountsNothing) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::cell_tables_test

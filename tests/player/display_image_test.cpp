@@ -4,7 +4,7 @@
 
 #include "base/heat_colour.h"
 
-namespace lucarne {
+namespace lucarne::display_image_test {
 namespace {
 
 ImageRgb row(std::vector<Rgb> pixels) { return {static_cast<int>(pixels.size()), 1, std::move(pixels)}; }
@@ -52,4 +52,4 @@ TEST(DisplayImage, ColoursStayAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::display_image_test

@@ -6,7 +6,7 @@
 #include "player/read_back.h"
 #include "tests/player/gl_available.h"
 
-namespace lucarne {
+namespace lucarne::display_pass_test {
 namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
@@ -122,4 +122,4 @@ TEST_F(Display, MeteringIsThatOfTheWholePicture) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::display_pass_test

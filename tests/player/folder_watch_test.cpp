@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-namespace lucarne {
+namespace lucarne::folder_watch_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,4 +72,4 @@ TEST_F(FolderWatched, WhatIsForgottenIsKnown) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::folder_watch_test

@@ -6,7 +6,7 @@
 #include "tests/player/gl_available.h"
 #include "tests/player/synthetic_maps.h"
 
-namespace lucarne {
+namespace lucarne::frame_errors_test {
 namespace {
 
 class Frames : public test::GlTest {};
@@ -71,4 +71,4 @@ TEST(LookSettings, StepsGoThroughAllAndComeBack) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::frame_errors_test

@@ -8,7 +8,7 @@
 #include "player/camera_choice.h"
 #include "tests/player/synthetic_maps.h"
 
-namespace lucarne {
+namespace lucarne::frustum_test {
 namespace {
 
 /// True if the point falls into the picture of the camera.
@@ -53,4 +53,4 @@ TEST(Frustum, WhatIsBehindOrBesideIsHiddenAndWhatIsAroundTheEyeIsNot) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::frustum_test

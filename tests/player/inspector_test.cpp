@@ -7,7 +7,7 @@
 #include "player/light_plot.h"
 #include "tests/player/synthetic_maps.h"
 
-namespace lucarne {
+namespace lucarne::inspector_test {
 namespace {
 
 test::BakedScene plate(int directions, const test::IncidentRadiance& light) {
@@ -70,4 +70,4 @@ TEST(LightPlot, UpInTheDiscIsUpInTheSceneAndRightIsRight) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::inspector_test

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace lucarne {
+namespace lucarne::layered_pack_test {
 namespace {
 
 /// Every texel of every layer is taken at most once.
@@ -79,4 +79,4 @@ TEST(LayeredPack, WhatCannotFitIsAnErrorOfResource) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::layered_pack_test

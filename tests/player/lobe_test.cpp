@@ -10,7 +10,7 @@
 #include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
 
-namespace lucarne {
+namespace lucarne::lobe_test {
 namespace {
 
 using test::coatOnly;
@@ -181,4 +181,4 @@ TEST(Lobe, AHighlightFollowsItsLightInBrightness) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::lobe_test

@@ -7,7 +7,7 @@
 #include "player/map_tables.h"
 #include "tests/player/synthetic_maps.h"
 
-namespace lucarne {
+namespace lucarne::map_fit_test {
 namespace {
 
 constexpr TextureLimits kLimits{4096, 2048};
@@ -66,4 +66,4 @@ TEST(MapFit, TooLittleForOneDirectionIsAnErrorOfResources) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::map_fit_test

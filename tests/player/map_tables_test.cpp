@@ -4,7 +4,7 @@
 
 #include "tests/player/synthetic_maps.h"
 
-namespace lucarne {
+namespace lucarne::map_tables_test {
 namespace {
 
 class MapTablesTest : public ::testing::TestWithParam<int> {};
@@ -73,4 +73,4 @@ TEST(MapTables, IndicesOutOfRangeAreABrokenContract) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::map_tables_test

@@ -11,7 +11,7 @@
 #include "tracer/optics/coat.h"
 #include "tracer/optics/phong.h"
 
-namespace lucarne {
+namespace lucarne::mean_lobe_test {
 namespace {
 
 using test::coatOnly;
@@ -148,4 +148,4 @@ TEST(MeanLobe, LightThatSpreadsIsShownWiderThanLightFromAPoint) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::mean_lobe_test

@@ -14,7 +14,7 @@
 #include "tracer/optics/phong.h"
 #include "tracer/optics/surface.h"
 
-namespace lucarne {
+namespace lucarne::mean_renderers_test {
 namespace {
 
 using test::BakedScene;
@@ -162,4 +162,4 @@ TEST_F(MeanRenderers, TheirTextureIsCounted) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::mean_renderers_test

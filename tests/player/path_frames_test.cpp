@@ -6,7 +6,7 @@
 #include "tests/player/gl_available.h"
 #include "tests/player/synthetic_maps.h"
 
-namespace lucarne {
+namespace lucarne::path_frames_test {
 namespace {
 
 using test::BakedScene;
@@ -64,4 +64,4 @@ TEST_F(PathFramesDrawn, TheOverlayIsInThePicture) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::path_frames_test

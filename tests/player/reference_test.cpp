@@ -14,7 +14,7 @@
 #include "tests/player/gl_available.h"
 #include "tests/player/synthetic_maps.h"
 
-namespace lucarne {
+namespace lucarne::reference_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ TEST(ReferenceOfReferences, FlipTellsABrighterPictureApart) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::reference_test

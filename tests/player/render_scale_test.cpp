@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lucarne {
+namespace lucarne::render_scale_test {
 namespace {
 
 TEST(RenderScale, SlowMotionIsDrawnCoarserAndRestInFull) {
@@ -18,4 +18,4 @@ TEST(RenderScale, SlowMotionIsDrawnCoarserAndRestInFull) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::render_scale_test

@@ -12,7 +12,7 @@
 #include "tracer/optics/phong.h"
 #include "tracer/optics/surface.h"
 
-namespace lucarne {
+namespace lucarne::renderers_test {
 namespace {
 
 using test::BakedScene;
@@ -325,4 +325,4 @@ TEST_F(Renderers, ASceneWithoutChartsIsABadInput) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::renderers_test

@@ -9,7 +9,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/player/gl_available.h"
 
-namespace lucarne {
+namespace lucarne::scenes_agree_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(Files, ScenesAgree, ::testing::ValuesIn(sceneFiles()),
                          [](const auto& scene) { return scene.param.name; });
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::scenes_agree_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-namespace lucarne {
+namespace lucarne::segment_triangle_test {
 namespace {
 
 using Triangle3 = std::array<Vec3d, 3>;
@@ -68,4 +68,4 @@ TEST(SegmentTriangle, WithoutExtentIsAPointOrALine) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::segment_triangle_test

@@ -8,7 +8,7 @@
 #include "tests/player/gl_available.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::shown_scene_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -73,4 +73,4 @@ TEST_F(SceneShown, WrongCamerasAndSpoiledMapsAreRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::shown_scene_test

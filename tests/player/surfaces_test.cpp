@@ -8,7 +8,7 @@
 #include "tests/support/textures.h"
 #include "tracer/optics/environment.h"
 
-namespace lucarne {
+namespace lucarne::surfaces_test {
 namespace {
 
 using test::BakedScene;
@@ -265,4 +265,4 @@ TEST_F(Surfaces, BothRenderersAgreeOnAllOfThemTogether) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::surfaces_test

@@ -6,7 +6,7 @@
 #include <glm/gtc/packing.hpp>
 #include <limits>
 
-namespace lucarne {
+namespace lucarne::texel_formats_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
@@ -57,4 +57,4 @@ TEST(TexelFormats, ScaleIsAPowerOfTwoThatFitsHalf) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::texel_formats_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lucarne {
+namespace lucarne::tonemap_test {
 namespace {
 
 ImageRgb imageOf(std::vector<Rgb> pixels) { return {static_cast<int>(pixels.size()), 1, std::move(pixels)}; }
@@ -42,4 +42,4 @@ TEST(Tonemap, CurveAndCodeRiseFromBlackToWhite) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::tonemap_test

@@ -7,7 +7,7 @@
 #include "player/camera_choice.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::truth_view_test {
 namespace {
 
 /// Waits, for as long as it takes, for a picture of at least so many paths.
@@ -92,4 +92,4 @@ TEST(TruthView, TheSkyShines) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::truth_view_test

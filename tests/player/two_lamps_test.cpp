@@ -10,7 +10,7 @@
 #include "tests/base/temp_folder.h"
 #include "tests/player/gl_available.h"
 
-namespace lucarne {
+namespace lucarne::two_lamps_test {
 namespace {
 
 class TwoLamps : public test::GlTest {
@@ -89,4 +89,4 @@ TEST_F(TwoLamps, EachHasItsOwnHighlightInItsOwnColour) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::two_lamps_test

@@ -7,7 +7,7 @@
 #include "tests/player/gl_available.h"
 #include "tests/player/synthetic_maps.h"
 
-namespace lucarne {
+namespace lucarne::views_test {
 namespace {
 
 using test::BakedScene;
@@ -173,4 +173,4 @@ TEST_F(Views, SupersamplingIsTheMeanOfShiftedPictures) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::views_test

@@ -6,7 +6,7 @@
 #include "player/camera_choice.h"
 #include "tests/player/walk_fixture.h"
 
-namespace lucarne {
+namespace lucarne::walk_control_test {
 namespace {
 
 /// A hall with two cameras at eye height, `shift` metres along x of where it usually is.
@@ -114,4 +114,4 @@ TEST(WalkControl, MapsOfAnotherPlaceTakeOneToTheirFloor) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::walk_control_test

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "tests/player/walk_fixture.h"
 
-namespace lucarne {
+namespace lucarne::walk_driver_test {
 namespace {
 
 test::SceneBuilder hall() {
@@ -150,4 +150,4 @@ TEST_F(WalkFile, HostileOnesAreRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::walk_driver_test

@@ -6,7 +6,7 @@
 #include "player/camera_choice.h"
 #include "tests/player/walk_fixture.h"
 
-namespace lucarne {
+namespace lucarne::walk_place_test {
 namespace {
 
 /// startAt() a camera of the scene's metres; feet in metres.
@@ -94,4 +94,4 @@ TEST(WalkPlace, AskedToFlyItStaysWhereTheCameraIs) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::walk_place_test

@@ -3,7 +3,7 @@
 
 #include "tests/player/walk_fixture.h"
 
-namespace lucarne {
+namespace lucarne::walker_floors_test {
 namespace {
 
 using test::ahead;
@@ -199,4 +199,4 @@ TEST(WalkerFloors, FlyingGoesWhereOneLooksAndThroughWalls) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::walker_floors_test

@@ -6,7 +6,7 @@
 
 #include "tests/player/walk_fixture.h"
 
-namespace lucarne {
+namespace lucarne::walker_walls_test {
 namespace {
 
 using test::ahead;
@@ -148,4 +148,4 @@ TEST(WalkerWalls, NobodyEverLeavesAClosedRoom) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::walker_walls_test

@@ -8,7 +8,7 @@
 #include "tests/tracer/photon_runs.h"
 #include "tracer/transport/path_tracer.h"
 
-namespace lucarne {
+namespace lucarne::alpha_transport_test {
 namespace {
 
 using test::FluxMeter;
@@ -255,4 +255,4 @@ TEST(AlphaTransport, NoPhotonStartsInAHole) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::alpha_transport_test

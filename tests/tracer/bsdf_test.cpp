@@ -11,7 +11,7 @@
 #include "tracer/optics/sampler.h"
 #include "tracer/optics/surface.h"
 
-namespace lucarne {
+namespace lucarne::bsdf_test {
 namespace {
 
 constexpr int kCos = 20, kAzimuth = 40;
@@ -161,4 +161,4 @@ TEST(Phong, ExponentAndRoughnessAreInverse) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::bsdf_test

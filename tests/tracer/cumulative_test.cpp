@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace lucarne {
+namespace lucarne::cumulative_test {
 namespace {
 
 struct Table {
@@ -70,4 +70,4 @@ TEST(Cumulative, TheRestIsWhereTheNumberLiesBetweenTheEndsOfItsChoice) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::cumulative_test

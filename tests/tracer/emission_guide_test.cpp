@@ -10,7 +10,7 @@
 #include "tests/tracer/photon_runs.h"
 #include "tracer/transport/guide_pilot.h"
 
-namespace lucarne {
+namespace lucarne::emission_guide_test {
 namespace {
 
 using test::FluxMeter;
@@ -203,4 +203,4 @@ TEST(GuidePilot, NoGuidedPhotonWeighsMoreThanFourTimesAnUnguidedOne) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::emission_guide_test

@@ -8,7 +8,7 @@
 #include "tests/support/statistics.h"
 #include "tracer/optics/sampler.h"
 
-namespace lucarne {
+namespace lucarne::emitters_test {
 namespace {
 
 using test::SceneBuilder;
@@ -140,4 +140,4 @@ TEST(EmitterTable, ASceneWithoutLightHasNoEmittersAndDarkLightsAreNamed) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::emitters_test

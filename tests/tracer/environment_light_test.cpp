@@ -8,7 +8,7 @@
 #include "tests/tracer/photon_runs.h"
 #include "tracer/optics/emission_guide.h"
 
-namespace lucarne {
+namespace lucarne::environment_light_test {
 namespace {
 
 using test::FluxMeter;
@@ -139,4 +139,4 @@ TEST(EnvironmentLight, SkyPhotonsCoverTheWholeScene) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::environment_light_test

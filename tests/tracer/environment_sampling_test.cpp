@@ -9,7 +9,7 @@
 #include "tests/tracer/environment_maps.h"
 #include "tracer/optics/environment.h"
 
-namespace lucarne {
+namespace lucarne::environment_sampling_test {
 namespace {
 
 constexpr int kWidth = 48, kHeight = 25;  // of the map
@@ -141,4 +141,4 @@ INSTANTIATE_TEST_SUITE_P(Normals, EnvironmentIrradiance,
                                            std::pair(1e5, normalize(Vec3d(-2, 3, -1)))));
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::environment_sampling_test

@@ -14,7 +14,7 @@
 #include "tests/support/statistics.h"
 #include "tests/tracer/environment_maps.h"
 
-namespace lucarne {
+namespace lucarne::environment_test {
 namespace {
 
 using test::constantMap;
@@ -230,4 +230,4 @@ TEST(Environment, RealMapsWithNanAndInfinityAreMended) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::environment_test

@@ -7,7 +7,7 @@
 #include "tracer/optics/ggx.h"
 #include "tracer/optics/glass_albedo.h"
 
-namespace lucarne {
+namespace lucarne::glass_table_test {
 namespace {
 
 using test::atCosine;
@@ -113,4 +113,4 @@ TEST(GlassTable, InfiniteIndexReflectsAndNoDifferenceTransmits) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::glass_table_test

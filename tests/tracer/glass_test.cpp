@@ -8,7 +8,7 @@
 #include "tests/tracer/glass_cases.h"
 #include "tracer/optics/ggx.h"
 
-namespace lucarne {
+namespace lucarne::glass_test {
 namespace {
 
 using test::atCosine;
@@ -332,4 +332,4 @@ TEST(Glass, ExtremesStayFinite) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::glass_test

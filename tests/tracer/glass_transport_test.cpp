@@ -8,7 +8,7 @@
 #include "tests/app/truth_scenes.h"
 #include "tests/tracer/photon_runs.h"
 
-namespace lucarne {
+namespace lucarne::glass_transport_test {
 namespace {
 
 using test::FluxMeter;
@@ -205,4 +205,4 @@ TEST(GlassTransport, ASphereFocusesTheSunBehindIt) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::glass_transport_test

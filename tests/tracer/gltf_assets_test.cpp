@@ -14,7 +14,7 @@
 #include "tracer/scene/gltf_writer.h"
 #include "tracer/scene/scene_summary.h"
 
-namespace lucarne {
+namespace lucarne::gltf_assets_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ TEST(GltfAssets, SummaryCountsWhatTheFilesHold) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_assets_test

@@ -3,7 +3,7 @@
 
 #include "tests/tracer/gltf_maker.h"
 
-namespace lucarne {
+namespace lucarne::gltf_density_test {
 namespace {
 
 using test::Json;
@@ -45,4 +45,4 @@ TEST(GltfDensity, ThatIsNoneIsRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_density_test

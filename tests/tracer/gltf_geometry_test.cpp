@@ -5,7 +5,7 @@
 
 #include "tests/tracer/gltf_maker.h"
 
-namespace lucarne {
+namespace lucarne::gltf_geometry_test {
 namespace {
 
 using test::GltfMaker;
@@ -245,4 +245,4 @@ TEST(GltfGeometry, ZeroScaleGivesOnePointAndNoNan) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_geometry_test

@@ -9,7 +9,7 @@
 #include "tests/tracer/gltf_maker.h"
 #include "tracer/scene/gltf_uri.h"
 
-namespace lucarne {
+namespace lucarne::gltf_hostile_test {
 namespace {
 
 using test::complaint;
@@ -298,4 +298,4 @@ TEST(GltfHostile, ContainersWithMoreThanTheyNeedAreTaken) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_hostile_test

@@ -5,7 +5,7 @@
 
 #include "tests/tracer/gltf_maker.h"
 
-namespace lucarne {
+namespace lucarne::gltf_lights_test {
 namespace {
 
 using test::GltfMaker;
@@ -100,4 +100,4 @@ TEST(GltfCameras, PerspectiveCameraHasUnitAxesAndOrthographicIsListed) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_lights_test

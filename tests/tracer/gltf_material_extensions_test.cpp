@@ -4,7 +4,7 @@
 
 #include "tests/tracer/gltf_maker.h"
 
-namespace lucarne {
+namespace lucarne::gltf_material_extensions_test {
 namespace {
 
 using test::GltfMaker;
@@ -201,4 +201,4 @@ TEST(GltfMaterialExtensions, WrongTypesAndUnknownTexturesAreRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_material_extensions_test

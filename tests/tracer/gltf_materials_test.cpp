@@ -3,7 +3,7 @@
 
 #include "tests/tracer/gltf_maker.h"
 
-namespace lucarne {
+namespace lucarne::gltf_materials_test {
 namespace {
 
 using test::GltfMaker;
@@ -201,4 +201,4 @@ TEST(GltfMaterials, RequiredExtensionsAreKnownOrRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_materials_test

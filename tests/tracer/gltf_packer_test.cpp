@@ -12,7 +12,7 @@
 #include "tests/tracer/gltf_files.h"
 #include "tests/tracer/gltf_maker.h"
 
-namespace lucarne {
+namespace lucarne::gltf_packer_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ TEST(GltfPacker, AGlbAndAGltfOfOneDocumentPackAlike) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_packer_test

@@ -7,7 +7,7 @@
 #include "tests/tracer/gltf_maker.h"
 #include "tracer/scene/gltf_writer.h"
 
-namespace lucarne {
+namespace lucarne::gltf_tangents_test {
 namespace {
 
 using test::GltfMaker;
@@ -225,4 +225,4 @@ TEST(Tangents, ComeBackBitForBitFromAScenePlacedInAnAtlas) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_tangents_test

@@ -9,7 +9,7 @@
 #include "tracer/scene/gltf_source.h"
 #include "tracer/scene/png_bytes.h"
 
-namespace lucarne {
+namespace lucarne::gltf_writer_test {
 namespace {
 
 using test::GltfMaker;
@@ -272,4 +272,4 @@ TEST(GltfWriter, AtlasOfAnotherSceneIsABrokenContract) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gltf_writer_test

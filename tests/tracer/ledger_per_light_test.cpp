@@ -9,7 +9,7 @@
 #include "tests/tracer/environment_maps.h"
 #include "tests/tracer/photon_runs.h"
 
-namespace lucarne {
+namespace lucarne::ledger_per_light_test {
 namespace {
 
 using test::SceneBuilder;
@@ -145,4 +145,4 @@ TEST(LedgerOfOneLight, LightFromFarAwayEndsAtTheBacksOfAClosedRoom) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::ledger_per_light_test

@@ -7,7 +7,7 @@
 #include "tests/support/scene_builder.h"
 #include "tracer/scene/gltf_reader.h"
 
-namespace lucarne {
+namespace lucarne::light_hash_test {
 namespace {
 
 Scene read(const std::function<void(Json&)>& change) { return readGlb(test::changedCornellBox(change), "box"); }
@@ -102,4 +102,4 @@ TEST(LightHash, NoticesEveryPropertyOfALightButItsName) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::light_hash_test

@@ -8,7 +8,7 @@
 #include "tests/tracer/photon_runs.h"
 #include "tracer/transport/shading_normal.h"
 
-namespace lucarne {
+namespace lucarne::normal_map_test {
 namespace {
 
 using test::FluxMeter;
@@ -194,4 +194,4 @@ TEST(NormalMaps, NoLightLeavesAClosedRoomThroughItsBumps) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::normal_map_test

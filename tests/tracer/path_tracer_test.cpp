@@ -11,7 +11,7 @@
 #include "tests/tracer/photon_runs.h"
 #include "tracer/optics/bsdf.h"
 
-namespace lucarne {
+namespace lucarne::path_tracer_test {
 namespace {
 
 using test::Mean;
@@ -234,4 +234,4 @@ TEST(PathTracer, DropsLightBeyondItsDepth) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::path_tracer_test

@@ -5,7 +5,7 @@
 #include "tests/support/scene_builder.h"
 #include "tracer/transport/any_sink.h"
 
-namespace lucarne {
+namespace lucarne::photon_numbers_test {
 namespace {
 
 constexpr std::uint64_t kBlock = std::uint64_t{1} << 32;
@@ -75,4 +75,4 @@ TEST(PhotonNumbers, TheLastPhotonsOfAllAreTraced) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::photon_numbers_test

@@ -8,7 +8,7 @@
 #include "tests/support/statistics.h"
 #include "tracer/transport/any_sink.h"
 
-namespace lucarne {
+namespace lucarne::photon_tracer_test {
 namespace {
 
 using test::SceneBuilder;
@@ -135,4 +135,4 @@ TEST(PhotonTracer, ScaleOfTheSceneDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::photon_tracer_test

@@ -9,7 +9,7 @@
 #include "tests/app/truth_scenes.h"
 #include "tests/tracer/photon_runs.h"
 
-namespace lucarne {
+namespace lucarne::photon_variants_test {
 namespace {
 
 struct VariantScene {
@@ -164,4 +164,4 @@ TEST(PhotonVariants, TheLeanestThatDoesIsTaken) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::photon_variants_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/statistics.h"
 
-namespace lucarne {
+namespace lucarne::sampler_test {
 namespace {
 
 // Known answers of Philox4x32-10 from the Random123 distribution (kat_vectors).
@@ -44,4 +44,4 @@ TEST(PhotonSampler, UnitNumbersStayBelowOne) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::sampler_test

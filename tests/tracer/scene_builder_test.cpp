@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lucarne {
+namespace lucarne::scene_builder_test {
 namespace {
 
 TEST(SceneBuilder, BoxesFaceOutwardOrInwardAsAsked) {
@@ -49,4 +49,4 @@ TEST(LocalFrame, OnePointHasTheScaleOne) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::scene_builder_test

@@ -8,7 +8,7 @@
 #include "tests/support/scene_builder.h"
 #include "tests/tracer/gltf_maker.h"
 
-namespace lucarne {
+namespace lucarne::scene_cleanup_test {
 namespace {
 
 using ::testing::Contains;
@@ -106,4 +106,4 @@ TEST(SceneCleanup, ReaderFindsDuplicatesAcrossInstancesAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::scene_cleanup_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::scene_summary_test {
 namespace {
 
 TEST(SceneSummary, CountsTrianglesLightsAndBoundsInMetres) {
@@ -48,4 +48,4 @@ TEST(SceneSummary, SceneWithoutTrianglesHasNoBounds) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::scene_summary_test

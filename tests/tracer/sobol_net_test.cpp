@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace lucarne {
+namespace lucarne::sobol_net_test {
 namespace {
 
 using test::Block;
@@ -93,4 +93,4 @@ TEST(SobolSampler, TheTestForNetsRejectsRandomPointsShiftedRangesAndABetterT) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::sobol_net_test

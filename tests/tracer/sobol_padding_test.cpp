@@ -6,7 +6,7 @@
 
 #include "tests/support/statistics.h"
 
-namespace lucarne {
+namespace lucarne::sobol_padding_test {
 namespace {
 
 using test::unit;
@@ -101,4 +101,4 @@ TEST(SobolSampler, TheTestForPaddingRejectsOneOrderForAllBlocks) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::sobol_padding_test

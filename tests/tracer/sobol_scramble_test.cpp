@@ -6,7 +6,7 @@
 
 #include "tests/support/statistics.h"
 
-namespace lucarne {
+namespace lucarne::sobol_scramble_test {
 namespace {
 
 using test::block;
@@ -110,4 +110,4 @@ TEST(SobolSampler, LowBitsOfOneBlockAreUniformAndIndependentOfTheTopAndOfTheNext
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::sobol_scramble_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/statistics.h"
 
-namespace lucarne {
+namespace lucarne::sobol_test {
 namespace {
 
 using test::Block;
@@ -132,4 +132,4 @@ TEST(RandomSampler, PicksEmittersByTwoWordsOfABlockOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::sobol_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lucarne {
+namespace lucarne::volume_test {
 namespace {
 
 Material medium(Rgb color, double distance) {
@@ -52,4 +52,4 @@ TEST(Volume, BlackIsBlackAfterAnyWayAndNotBefore) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::volume_test
