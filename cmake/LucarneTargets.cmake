@@ -76,9 +76,9 @@ endfunction()
 # folder of another build of the same sources, their objects are taken from there and only linked anew.
 set(LUCARNE_TEST_OBJECTS "" CACHE PATH "Build folder to take the compiled tests from; empty: compile them")
 
-# lucarne_test_sources(VARIABLE NAME OWN): every .cpp in tests/NAME, or its objects in the other build unless OWN.
-function(lucarne_test_sources variable name own)
-  if(LUCARNE_TEST_OBJECTS AND NOT own)
+# lucarne_test_sources(VARIABLE NAME): every .cpp in tests/NAME, or its objects in the other build.
+function(lucarne_test_sources variable name)
+  if(LUCARNE_TEST_OBJECTS)
     file(STRINGS "${LUCARNE_TEST_OBJECTS}/tests/test_${name}.objects" sources)
     set_source_files_properties(${sources} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
   else()
@@ -98,11 +98,11 @@ function(lucarne_precompile_test_headers target)
   endif()
 endfunction()
 
-# lucarne_test(NAME LIBS… [OWN_OBJECTS] [ENVIRONMENT VAR=VALUE]): one GoogleTest program of every .cpp in tests/NAME, its
-# cases known to CTest one by one. OWN_OBJECTS: paths of this build are compiled into it.
+# lucarne_test(NAME LIBS… [ENVIRONMENT VAR=VALUE]): one GoogleTest program of every .cpp in tests/NAME, its cases known to
+# CTest one by one.
 function(lucarne_test name)
-  cmake_parse_arguments(arg "OWN_OBJECTS" "ENVIRONMENT" "" ${ARGN})
-  lucarne_test_sources(sources ${name} ${arg_OWN_OBJECTS})
+  cmake_parse_arguments(arg "" "ENVIRONMENT" "" ${ARGN})
+  lucarne_test_sources(sources ${name})
   if(NOT sources)
     return()
   endif()
@@ -111,7 +111,7 @@ function(lucarne_test name)
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(test_${name} PRIVATE lucarne_flags ${arg_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE LUCARNE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  if(arg_OWN_OBJECTS OR NOT LUCARNE_TEST_OBJECTS)
+  if(NOT LUCARNE_TEST_OBJECTS)
     lucarne_precompile_test_headers(test_${name})
     lucarne_compile_together(test_${name})
     # What a build that links the same objects must name.

@@ -1,28 +1,16 @@
 // The program as a user meets it: exit codes, one line for every error, nothing left half-written.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
+#include "tests/cli/program.h"
+
+namespace lucarne::command_line_test {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int code;
-  std::string out, err;
-};
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::slurp;
+using Outcome = test::ProgramOutcome;
 
 /// A folder of its own for each test; commands run in it.
 class CommandLine : public testing::Test {
@@ -38,11 +26,13 @@ class CommandLine : public testing::Test {
   Outcome run(const std::string& arguments, const std::string& input = "") const {
     write("stdin", input);
     const std::string command =
-        "cd '" + folder_.string() + "' && '" LUCARNE_PROGRAM "' " + arguments + " <stdin >stdout 2>stderr";
+        "cd '" + folder_.string() + "' && '" + test::programPath() + "' " + arguments + " <stdin >stdout 2>stderr";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"), slurp(folder_ / "stderr")};
   }
-  void write(const std::string& name, const std::string& bytes) const { std::ofstream(folder_ / name, std::ios::binary) << bytes; }
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
 
   /// The command fails with `code`, one line that holds `words`, and leaves no file that was not there before.
   void expectRefusal(const std::string& arguments, int code, const std::string& words) const {
@@ -139,8 +129,9 @@ TEST_F(CommandLine, ABakeIsRepeatableReplacesItsOwnOutputAndReportsTheAgreedKeys
   EXPECT_EQ(again.err, "");
   const auto a = nlohmann::json::parse(slurp(folder_ / "a.json")), b = nlohmann::json::parse(slurp(folder_ / "b.json"));
   EXPECT_EQ(a["content_hash"], b["content_hash"]);
-  for (const char* key : {"photons", "seconds", "photons_per_second", "rays", "rays_per_second", "stored_hits", "charts", "directions",
-                          "texels", "tally_bytes", "map_bytes", "peak_memory_bytes", "estimated_relative_error", "content_hash", "left_out"})
+  for (const char* key : {"photons", "seconds", "photons_per_second", "rays", "rays_per_second", "stored_hits",
+                          "charts", "directions", "texels", "tally_bytes", "map_bytes", "peak_memory_bytes",
+                          "estimated_relative_error", "content_hash", "left_out"})
     EXPECT_TRUE(a.contains(key)) << key;
   for (const char* key : {"emitted", "absorbed", "escaped", "cut_off", "roulette", "shading_normal"})
     EXPECT_EQ(a["flux_lm"][key].size(), 3u) << key;
@@ -157,7 +148,8 @@ TEST_F(CommandLine, ProbeNamesTheLineItCannotRead) {
 }
 
 TEST_F(CommandLine, InfoTellsFilesApart) {
-  EXPECT_EQ(nlohmann::json::parse(run("info '" LUCARNE_SOURCE_DIR "/scenes/cornell_box.glb' --json").out)["kind"], "scene");
+  EXPECT_EQ(nlohmann::json::parse(run("info '" LUCARNE_SOURCE_DIR "/scenes/cornell_box.glb' --json").out)["kind"],
+            "scene");
   write("text.txt", "hello");
   expectRefusal("info text.txt", 3, "text.txt");
   expectRefusal("info nothere", 3, "nothere");
@@ -165,3 +157,4 @@ TEST_F(CommandLine, InfoTellsFilesApart) {
 }
 
 }  // namespace
+}  // namespace lucarne::command_line_test

@@ -187,9 +187,7 @@ TEST_F(Mpi, AnErrorOfAnotherRankEndsAllWithItsMessage) {
 }
 
 TEST_F(Mpi, AnErrorThatTheOthersDoNotKnowOfEndsAllWithItsMessage) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "the address sanitizer needs more memory than the limit of this test";
-#endif
+  if (test::isSanitized()) GTEST_SKIP() << "the address sanitizer needs more memory than the limit of this test";
   // Rank 0 alone writes, and may write nothing larger than a block.
   const auto o = shell(mpirun() + "-n 1 sh -c 'trap \"\" XFSZ; ulimit -f 1; exec " + bake("x.dlm", "5M") +
                        "--checkpoint 0' : -n 2 " + bake("x.dlm", "5M") + "--checkpoint 0");

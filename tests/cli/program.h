@@ -16,6 +16,14 @@ namespace lucarne::test {
 /// A scene that loads at once, with maps for all directions, as options of a bake.
 inline constexpr const char* kQuickScene = " '" LUCARNE_SOURCE_DIR "/scenes/cornell_box.glb' --keep-all-directions ";
 
+/// The program of the build that the running test is of.
+inline std::string programPath() {
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cli" / "lucarne").string();
+}
+
+/// With the address sanitizer what was freed is kept, and programs need far more memory than without.
+bool isSanitized();
+
 struct ProgramOutcome {
   int code;
   std::string out, err;
@@ -42,7 +50,7 @@ class ProgramTest : public testing::Test {
   /// A line for the shell, run in the folder, with the program as $LUCARNE.
   ProgramOutcome shell(const std::string& line) const {
     const std::string command =
-        "cd '" + folder_.string() + "' && export LUCARNE='" LUCARNE_PROGRAM "' && { " + line + "; } >stdout 2>stderr";
+        "cd '" + folder_.string() + "' && export LUCARNE='" + programPath() + "' && { " + line + "; } >stdout 2>stderr";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"), slurp(folder_ / "stderr")};
   }
@@ -73,7 +81,7 @@ class Background {
     ::setpgid(pid_, pid_);
     if (pid_ != 0) return;
     const std::string command =
-        "cd '" + folder.string() + "' && export LUCARNE='" LUCARNE_PROGRAM "' && exec " + line + " >>log 2>&1";
+        "cd '" + folder.string() + "' && export LUCARNE='" + programPath() + "' && exec " + line + " >>log 2>&1";
     ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
     ::_exit(127);
   }

@@ -81,9 +81,7 @@ TEST_F(SharedBake, AnyNumberOfEqualPartsGivesEveryFileBitForBit) {
 }
 
 TEST_F(SharedBake, ManyPartsTakeTheMemoryOfTwo) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "the address sanitizer keeps what was freed";
-#endif
+  if (test::isSanitized()) GTEST_SKIP() << "the address sanitizer keeps what was freed";
   mustRun(std::string("bake") + kQuickScene + "-o p0.part --density 60 --quiet --photons 400k --photon-range 0:1k");
   std::string list = "p0.part\n";
   for (int i = 1; i < 60; ++i) {

@@ -9,10 +9,12 @@
 namespace lucarne::test {
 
 /// A cube blown up to a ball of uneven facets, fronts inward: 12·cells² triangles. Neighbours share their corners to
-/// the last bit; edges are of very different lengths.
+/// the last bit; edges are of very different lengths. Corners are `radius` or up to a share of `depth` less from the
+/// center, which all of it can be seen from: with a depth of nearly 1 the ball is all spikes.
 class BumpyBall {
  public:
-  BumpyBall(Vec3d center, double radius, int cells) : center_(center), radius_(radius), cells_(cells) {}
+  BumpyBall(Vec3d center, double radius, int cells, double depth = 0.2)
+      : center_(center), radius_(radius), depth_(depth), cells_(cells) {}
 
   void addTo(SceneBuilder& b, std::uint32_t material) {
     for (int axis = 0; axis < 3; ++axis)
@@ -55,11 +57,11 @@ class BumpyBall {
     Vec3d p;
     for (int k = 0; k < 3; ++k)
       p[k] = l[static_cast<std::size_t>(k)] + 0.8 * (hash(static_cast<std::uint64_t>(k) + 1) - 0.5);
-    return at->second = center_ + normalize(p) * (radius_ * (0.8 + 0.2 * hash(9)));
+    return at->second = center_ + normalize(p) * (radius_ * (1 - depth_ + depth_ * hash(9)));
   }
 
   Vec3d center_;
-  double radius_;
+  double radius_, depth_;
   int cells_;
   std::map<Lattice, Vec3d> points_;
 };

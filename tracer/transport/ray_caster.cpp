@@ -195,15 +195,29 @@ std::uint32_t RayCaster::cast(Vec3f origin, Vec3f direction, float tnear, std::u
   return kNone;
 }
 
-/// Embree's robust mode is watertight at edges. At a corner its edge tests may round so that none of the triangles
-/// around is met, by about one ray in a thousand that is aimed at the very corner; turned by a few roundings it meets
-/// one.
 std::uint32_t RayCaster::nearest(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats,
                                  const HoleQuestion* holes) const {
   const std::uint32_t met = cast(origin, direction, 0, from, repeats, holes);
-  if (met != kNone || !closed_ || !isWithinBounds(origin)) [[likely]]
+  if (met != kNone || !closed_) [[likely]]
     return met;
-  return cast(origin, direction + Frame<float>(direction).s * 0x1p-19f, 0, from, repeats, holes);
+  return castAgain(origin, direction, from, repeats, holes);
+}
+
+/// Of a ray that met nothing in a closed scene. Embree's robust mode is watertight at edges. At a corner its edge tests
+/// may round so that none of the triangles around is met, by about one ray in a thousand that is aimed at the very
+/// corner; turned by a few roundings it meets one. And in the tip of a spike, where walls are nearer to each other than
+/// rays start from them, a ray may have started beyond the other wall; from the very triangle it meets that wall.
+[[gnu::noinline]] std::uint32_t RayCaster::castAgain(Vec3f origin, Vec3f direction, std::uint32_t from,
+                                                     std::uint64_t& repeats, const HoleQuestion* holes) const {
+  if (isWithinBounds(origin)) {
+    const Vec3f turned = direction + Frame<float>(direction).s * 0x1p-19f;
+    const std::uint32_t met = cast(origin, turned, 0, from, repeats, holes);
+    if (met != kNone) return met;
+  }
+  if (from == kNone) return kNone;
+  const TriangleData& t = triangles_[from];
+  const float above = dot(t.n, direction) > 0 ? t.clearance : -t.clearance;
+  return cast(origin - t.n * above, direction, 0, from, repeats, holes);
 }
 
 bool RayCaster::isWithinBounds(Vec3f p) const {

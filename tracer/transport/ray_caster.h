@@ -104,6 +104,8 @@ class RayCaster {
   void build(const Scene& scene, const RayCasterOptions& options, const SurfaceTable* surfaces);
   std::uint32_t cast(Vec3f origin, Vec3f direction, float tnear, std::uint32_t from, std::uint64_t& repeats,
                      const HoleQuestion* holes) const;
+  std::uint32_t castAgain(Vec3f origin, Vec3f direction, std::uint32_t from, std::uint64_t& repeats,
+                          const HoleQuestion* holes) const;
   std::uint32_t castThroughHoles(Question& question, float tnear) const;
   bool isClosed() const;
   bool isWithinBounds(Vec3f p) const;
