@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "dlm/dlm_reader_steps.h"
 #include "dlm/dlm_reader_pages.h"
+#include "dlm/dlm_reader_steps.h"
 #include "dlm/manifest.h"
 #include "dlm/manifest_seal.h"
 #include "tracer/scene/gltf_json.h"
@@ -83,24 +83,35 @@ Dlm readDlm(const std::filesystem::path& folder) {
   return readDlm(folder, [](const std::string&, double) {});
 }
 
-Dlm readDlm(const std::filesystem::path& folder, const DlmStep& observe) {
-  Dlm dlm;
+OpenedDlm openDlm(const std::filesystem::path& folder, const DlmStep& observe) {
+  OpenedDlm opened;
+  Dlm& dlm = opened.dlm;
   dlm.manifest = readManifest(folder);
   const Shares shares(folder);
   observe("checking the files", 0);
   ManifestContents contents = readManifestMaps(dlm.manifest, (folder / dlm_file::kManifest).string());
+  const bool directional = !contents.pages.directional.layers.empty();
   for (const char* name : {dlm_file::kScene, dlm_file::kIrradiance}) checkSeal(dlm.manifest, folder, name);
-  if (!contents.pages.directional.layers.empty()) checkSeal(dlm.manifest, folder, dlm_file::kDirectional);
+  if (directional) checkSeal(dlm.manifest, folder, dlm_file::kDirectional);
   if (contents.pages.directional.means) checkSeal(dlm.manifest, folder, dlm_file::kMoments);
   observe("reading the scene", kChecking);
   const std::filesystem::path scenePath = folder / dlm_file::kScene;
   dlm.scene = readGltf(scenePath);
   observe("reading the irradiance", shares.irradiance);
-  dlm.maps = readPages(folder, std::move(contents),
-                       [&] { observe("reading the directional maps", shares.directional); });
-  observe("checking the charts", 1);
+  dlm.maps = std::move(contents.maps);
+  readIrradiance(folder / dlm_file::kIrradiance, contents, dlm.maps);
   checkCharts(dlm.scene, dlm.maps, scenePath.string());
-  return dlm;
+  opened.share = directional ? shares.directional : 1;
+  if (directional)
+    opened.directional.emplace(folder, dlm.maps, std::move(contents.pages.directional), contents.directionalCount);
+  return opened;
+}
+
+Dlm readDlm(const std::filesystem::path& folder, const DlmStep& observe) {
+  OpenedDlm opened = openDlm(folder, observe);
+  observe("reading the directional maps", opened.share);
+  if (opened.directional) readInto(*opened.directional, opened.dlm.maps);
+  return std::move(opened.dlm);
 }
 
 }  // namespace lucarne

@@ -1,15 +1,13 @@
-// The texels of light maps out of the layers of irradiance.exr, directional.exr and moments.exr.
+// The irradiance of light maps out of the layers of irradiance.exr.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 
 #include "dlm/manifest.h"
 
 namespace lucarne {
 
-/// Reads the image files and fills all texels. InputError names the file. `betweenFiles` is called after the irradiance.
-LightMaps readPages(const std::filesystem::path& folder, ManifestContents contents,
-                    const std::function<void()>& betweenFiles);
+/// Fills the texels of the irradiance and what is known of it. InputError names the file.
+void readIrradiance(const std::filesystem::path& path, const ManifestContents& contents, LightMaps& maps);
 
 }  // namespace lucarne

@@ -1,9 +1,11 @@
-// readDlm() for those who show how far it is.
+// readDlm() for those who show how far it is, and for those who take the directional maps page by page.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "dlm/directional_file.h"
 #include "dlm/dlm_reader.h"
 
 namespace lucarne {
@@ -12,5 +14,14 @@ namespace lucarne {
 using DlmStep = std::function<void(const std::string& step, double share)>;
 
 Dlm readDlm(const std::filesystem::path& folder, const DlmStep& observe);
+
+struct OpenedDlm {
+  Dlm dlm;                                     // all but maps.directional and maps.meanDirections
+  std::optional<DirectionalFile> directional;  // none: no surface keeps light by direction
+  double share = 1;                            // that is done, by bytes
+};
+
+/// As readDlm(), but for the directional maps, of which only the file's hash is checked.
+OpenedDlm openDlm(const std::filesystem::path& folder, const DlmStep& observe);
 
 }  // namespace lucarne

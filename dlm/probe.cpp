@@ -55,6 +55,7 @@ ProbeAnswer Prober::probe(Vec3d position, Vec3d normal, ProbeDetail detail) cons
   answer.onSurface = true;
   answer.chart = point->chart;
   answer.back = point->back;
+  answer.st = point->st;
   const MapChart& chart = maps_.charts[point->chart];
   const std::uint32_t index = point->back ? chart.backSide : chart.frontSide;
   if (index == kNone) return answer;
@@ -82,7 +83,7 @@ void Prober::fillDirections(const SideMaps& side, const SurfacePoint& point, Pro
       out.solidAngle = cell.solidAngle;
       out.meanCosine = cell.meanCosine();
     }
-    if (member.stored()) out.irradiance = weights.of({maps_.directional.data() + member.first, side.texelCount()});
+    if (member.stored() && !maps_.directional.empty()) out.irradiance = weights.of({maps_.directional.data() + member.first, side.texelCount()});
     answer.directions.push_back(out);
   }
 }

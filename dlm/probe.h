@@ -24,6 +24,7 @@ struct ProbeAnswer {
   bool onSurface = false;  // false: nothing within a texel whose normal agrees; the rest is then empty
   std::uint32_t chart = kNone;
   bool back = false;
+  Vec2d st{};                              // texel coordinates in the chart's rectangle
   Rgbd irradiance{};                       // lx, bilinear between texel centres, clamped to the chart's rectangle
   std::vector<ProbeDirection> directions;  // the members of the side, ψ ascending
   double standardError = 0;                // estimated, of the luminance of the irradiance; of the texel that holds the point
@@ -41,7 +42,8 @@ class Prober {
  public:
   /// `dlm` must outlive the prober.
   explicit Prober(const Dlm& dlm) : Prober(dlm.scene, dlm.maps) {}
-  /// As read from a .dlm; both must outlive the prober.
+  /// As read from a .dlm; both must outlive the prober. Without the texels of the directional maps in memory, light by
+  /// direction is told as 0.
   Prober(const Scene& scene, const LightMaps& maps);
 
   /// Position in metres of the file's world; the normal need not be unit. InputError on a normal of length zero and on

@@ -51,20 +51,20 @@ void setFixedState(const FrameTarget& target) {
 
 }  // namespace
 
-FrameRenderer::FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale,
+FrameRenderer::FrameRenderer(const Scene& scene, const MapSource& source, LightMapFormat format, float outputScale,
                              LobeKind lobe)
-    : maps_(uploadMaps(maps, format)),
-      scene_(scene, maps),
-      programs_(constantsOf(maps_, outputScale, lobe, maps.directionCount, scene.frame.scale)),
+    : maps_(uploadMaps(source, format)),
+      scene_(scene, source.maps),
+      programs_(constantsOf(maps_, outputScale, lobe, source.maps.directionCount, scene.frame.scale)),
       camera_(makeBuffer(std::as_bytes(std::span<const CameraBlock, 1>(std::array<CameraBlock, 1>{})),
                          GL_DYNAMIC_STORAGE_BIT)),
       outputScale_(outputScale),
       singlepass_(makeSinglepass()),
-      multipass_(makeMultipass(scene_.list, maps)),
+      multipass_(makeMultipass(scene_.list, source.maps)),
       views_(makeViewRenderer()) {
   stats_.textureBytes = maps_.textureBytes + scene_.textures.bytes();
   stats_.lightMapBytes = maps_.lightMapBytes;
-  stats_.directions = maps.directionCount;
+  stats_.directions = source.maps.directionCount;
 }
 
 void FrameRenderer::uploadCamera(const FrameView& view, const FrameTarget& target) const {

@@ -19,8 +19,8 @@ struct FrameView {
 
 class FrameRenderer {
  public:
-  /// `scene` is needed only here. `outputScale`: target units per cd/m².
-  FrameRenderer(const Scene& scene, const LightMaps& maps, LightMapFormat format, float outputScale = 1.f,
+  /// `scene` and `source` are needed only here. `outputScale`: target units per cd/m².
+  FrameRenderer(const Scene& scene, const MapSource& source, LightMapFormat format, float outputScale = 1.f,
                 LobeKind lobe = LobeKind::cell);
 
   /// Fills target.color with outputScale · cd/m², or what the view says (light scaled likewise); black where nothing
@@ -37,6 +37,7 @@ class FrameRenderer {
   /// Programs for it are made at the first frame that needs them.
   void setLobe(LobeKind lobe) { programs_.setLobe(lobe); }
   float outputScale() const { return outputScale_; }
+  const GpuMaps& maps() const { return maps_; }
 
   /// Of the last frame drawn; times are left to the caller.
   const RenderStats& stats() const { return stats_; }

@@ -4,7 +4,20 @@
 
 namespace lucarne {
 
-Inspector::Inspector(const Scene& scene, const LightMaps& maps) : scene_(scene), caster_(scene), prober_(scene, maps) {}
+Inspector::Inspector(const Scene& scene, const LightMaps& maps, LightByDirection elsewhere)
+    : scene_(scene), maps_(maps), elsewhere_(std::move(elsewhere)), caster_(scene), prober_(scene, maps) {}
+
+void Inspector::fillDirections(ProbeAnswer& answer) const {
+  if (answer.directions.empty()) return;
+  const MapChart& chart = maps_.charts[answer.chart];
+  const std::uint32_t index = answer.back ? chart.backSide : chart.frontSide;
+  const std::vector<Rgbd> light = elsewhere_(index, answer.st);
+  const std::vector<SideDirection>& members = maps_.sides[index].directions;
+  std::size_t rank = 0;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (members[i].stored()) answer.directions[i].irradiance = light[rank++];
+  }
+}
 
 std::optional<Inspection> Inspector::inspect(const Camera& camera, double x, double y, double aspect) const {
   const RayStart ray = Pinhole(camera, aspect, 1).through(x * aspect, y);
@@ -17,6 +30,7 @@ std::optional<Inspection> Inspector::inspect(const Camera& camera, double x, dou
   found.normal = hit.back ? -Vec3d(hit.n) : Vec3d(hit.n);
   found.material = scene_.materials[hit.material].name;
   found.answer = prober_.probe(found.position, found.normal);
+  if (elsewhere_) fillDirections(found.answer);
   return found;
 }
 

@@ -4,12 +4,12 @@
 
 namespace lucarne {
 
-LookTools::LookTools(const Scene& scene, const LightMaps& maps, ImageRgb sky, float outputScale)
-    : scene_(scene), maps_(maps), truth_(scene, std::move(sky)), outputScale_(outputScale) {}
+LookTools::LookTools(const Scene& scene, const LightMaps& maps, ImageRgb sky, float outputScale, LightByDirection light)
+    : scene_(scene), maps_(maps), light_(std::move(light)), truth_(scene, std::move(sky)), outputScale_(outputScale) {}
 
 void LookTools::follow(const Camera& camera, int width, int height) {
   if (settings.inspectAt) {
-    if (!inspector_) inspector_ = std::make_unique<Inspector>(scene_, maps_);
+    if (!inspector_) inspector_ = std::make_unique<Inspector>(scene_, maps_, light_);
     const Vec2d at = *std::exchange(settings.inspectAt, std::nullopt);
     inspection_ = inspector_->inspect(camera, at.x, at.y, static_cast<double>(width) / height);
   }

@@ -15,7 +15,8 @@ namespace lucarne {
 class LookTools {
  public:
   /// `scene` and `maps` must outlive this. `sky`: equirectangular, or empty. `outputScale`: target units per cd/m².
-  LookTools(const Scene& scene, const LightMaps& maps, ImageRgb sky, float outputScale);
+  /// `light`: as Inspector.
+  LookTools(const Scene& scene, const LightMaps& maps, ImageRgb sky, float outputScale, LightByDirection light);
 
   LookSettings settings;
 
@@ -34,6 +35,7 @@ class LookTools {
 
   const Scene& scene_;
   const LightMaps& maps_;
+  LightByDirection light_;
   TruthView truth_;
   float outputScale_;
   std::unique_ptr<Inspector> inspector_;  // made at the first question

@@ -47,7 +47,7 @@ class HorizonCache {
   std::map<std::tuple<float, float, float>, std::vector<LobeCell>> byNormal_;
 };
 
-void checkSide(const LightMaps& maps, const SideMaps& side) {
+void checkSide(const LightMaps& maps, const SideMaps& side, std::uint64_t texels) {
   LUCARNE_CHECK_LT(side.chart, maps.charts.size());
   if (!side.lit) return;
   LUCARNE_CHECK_LT(0, side.width);
@@ -57,8 +57,8 @@ void checkSide(const LightMaps& maps, const SideMaps& side) {
   for (const SideDirection& d : side.directions) {
     LUCARNE_CHECK_LT(static_cast<int>(d.psi), maps.directionCount);
     if (!d.stored()) continue;
-    LUCARNE_CHECK_LE(d.first, maps.directional.size());
-    LUCARNE_CHECK_LE(side.texelCount(), maps.directional.size() - d.first);
+    LUCARNE_CHECK_LE(d.first, texels);
+    LUCARNE_CHECK_LE(side.texelCount(), texels - d.first);
   }
 }
 
@@ -125,9 +125,9 @@ std::uint64_t mapTextureBytes(const LightMaps& maps, LightMapFormat format, cons
          packSides(maps, limits.layers, limits, one).texels() * kEvenBytesPerTexel;
 }
 
-MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const TextureLimits& limits) {
+MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const TextureLimits& limits, std::uint64_t texels) {
   LUCARNE_CHECK_EQ(set.count(), maps.directionCount);
-  for (const SideMaps& side : maps.sides) checkSide(maps, side);
+  for (const SideMaps& side : maps.sides) checkSide(maps, side, texels);
   MapTables t;
   t.layersPerStrip = limits.layers;
   t.directional = packSides(maps, limits.layers, limits, storedCount);

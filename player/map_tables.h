@@ -36,7 +36,19 @@ constexpr std::uint64_t bytesPerTexel(LightMapFormat format) {
   return format == LightMapFormat::float32 ? 16 : format == LightMapFormat::half ? 8 : 4;
 }
 
-/// Checks the indices of `maps` against each other (std::logic_error: a reader let them through).
-MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const TextureLimits& limits);
+/// Where the stored map of that rank of a side lies whose first one is at `first`: one a layer, then to the right of itself.
+constexpr LayeredPlace placeOf(LayeredPlace first, int layersPerStrip, int rank, int width) {
+  return {first.x + rank / layersPerStrip * width, first.y, first.layer + rank % layersPerStrip};
+}
+inline LayeredPlace placeOf(const MapTables& tables, std::size_t side, int rank, int width) {
+  return placeOf(tables.directional.places[side], tables.layersPerStrip, rank, width);
+}
+
+/// Checks the indices of `maps` against each other (std::logic_error: a reader let them through). `texels`: of the
+/// directional maps, in memory or not.
+MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const TextureLimits& limits, std::uint64_t texels);
+inline MapTables layOutMaps(const LightMaps& maps, const DirectionSet& set, const TextureLimits& limits) {
+  return layOutMaps(maps, set, limits, maps.directional.size());
+}
 
 }  // namespace lucarne

@@ -3,52 +3,18 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <span>
 
 #include "base/error.h"
 #include "dlm/mean_direction.h"
 #include "player/lobe.h"
+#include "player/map_stream.h"
+#include "player/texel_coding.h"
 #include "player/texel_formats.h"
 
 namespace lucarne {
 namespace {
-
-struct PixelCoding {
-  GLenum internal, layout, type;
-  std::size_t bytes;
-};
-
-/// How a texel of the directional maps is stored.
-struct TexelCoding : PixelCoding {
-  void (*writeRow)(std::span<const Rgb> values, float scale, std::byte* to);
-};
-
-/// Each value times the scale, as `code` makes it.
-template <auto code>
-void writeCoded(std::span<const Rgb> values, float scale, std::byte* to) {
-  for (const Rgb& value : values) {
-    const auto texel = code(value * scale);
-    std::memcpy(to, &texel, sizeof texel);
-    to += sizeof texel;
-  }
-}
-
-TexelCoding codingOf(LightMapFormat format) {
-  constexpr auto asHalf = [](Rgb v) {
-    return std::array<std::uint16_t, 4>{packHalf(v.x), packHalf(v.y), packHalf(v.z), 0};
-  };
-  switch (format) {
-    case LightMapFormat::float32:
-      return {{GL_RGBA32F, GL_RGB, GL_FLOAT, 12}, writeCoded<[](Rgb v) { return v; }>};
-    case LightMapFormat::rgb9e5:
-      return {{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4}, writeCoded<packRgb9e5>};
-    case LightMapFormat::half:
-      break;
-  }
-  return {{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8}, writeCoded<asHalf>};
-}
 
 /// A rectangle of one layer: the texels of one ψ of one side.
 struct Rectangle {
@@ -67,9 +33,7 @@ std::vector<std::vector<Rectangle>> rectanglesByLayer(const LightMaps& maps, con
     int rank = 0;
     for (const SideDirection& d : side.directions) {
       if (!d.stored()) continue;
-      LayeredPlace place = tables.directional.places[i];
-      place.x += rank / tables.layersPerStrip * side.width;
-      place.layer += rank % tables.layersPerStrip;
+      const LayeredPlace place = placeOf(tables, i, rank, side.width);
       layers[static_cast<std::size_t>(place.layer)].push_back(
           {d.first, d.psi, place, side.width, side.height});
       ++rank;
@@ -211,15 +175,23 @@ TextureLimits textureLimits() {
   return limits;
 }
 
-GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format) {
+GpuMaps uploadMaps(const MapSource& source, LightMapFormat format) {
+  const LightMaps& maps = source.maps;
   const DirectionSet set(maps.directionCount);
   const TextureLimits limits = textureLimits();
-  const MapTables tables = layOutMaps(maps, set, limits);
-  const float scale = format == LightMapFormat::float32 ? 1.f : halfScale(largestValue(maps.directional));
-
+  const MapTables tables =
+      layOutMaps(maps, set, limits, source.directional != nullptr ? source.directional->texels() : maps.directional.size());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   GpuMaps gpu;
-  gpu.directional = uploadDirectional(maps, tables, format, scale);
+  if (source.directional != nullptr) {
+    gpu.directional = streamDirectional(source, tables, format);
+    gpu.mapUnit = static_cast<float>(source.directional->scale());
+  } else {
+    const float scale = format == LightMapFormat::float32 ? 1.f : halfScale(largestValue(maps.directional));
+    gpu.directional = uploadDirectional(maps, tables, format, scale);
+    gpu.mapUnit = 1.f / scale;
+  }
+  gpu.places = tables.directional.places;
   gpu.irradiance = uploadIrradiance(maps, tables.irradiance);
   gpu.statistics = uploadStatistics(maps, tables.irradiance);
   gpu.hasMeans = maps.hasMeans();
@@ -239,7 +211,6 @@ GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format) {
   gpu.memberBits = storageBuffer(tables.memberBits);
   gpu.layersPerStrip = tables.layersPerStrip;
   gpu.wordsPerSide = tables.wordsPerSide;
-  gpu.mapUnit = 1.f / scale;
   gpu.cellSharpness = cellSharpness(maps.directionCount);
   return gpu;
 }

@@ -3,6 +3,7 @@
 
 #include "dlm/light_maps.h"
 #include "player/gl_objects.h"
+#include "player/map_source.h"
 #include "player/map_tables.h"
 #include "player/render_options.h"
 
@@ -19,6 +20,7 @@ struct GpuMaps {
   float meanReach = 0;
   int cellTableNodes = 1, cellTableLayers = 1;
   int layersPerStrip = 1, wordsPerSide = 1;
+  std::vector<LayeredPlace> places;  // by side: of its first stored map in `directional`
   float mapUnit = 1;                                  // lx per stored unit of `directional`, a power of two
   float cellSharpness = 1;                            // λ of a cell
   std::uint64_t lightMapBytes = 0, textureBytes = 0;  // the directional maps and their means; all textures here
@@ -27,7 +29,7 @@ struct GpuMaps {
 /// Limits of the current context.
 TextureLimits textureLimits();
 
-/// Error(outOfResource) when the maps do not fit. Needs a current context.
-GpuMaps uploadMaps(const LightMaps& maps, LightMapFormat format);
+/// Error(outOfResource) when the maps do not fit, InputError for a damaged file. Needs a current context.
+GpuMaps uploadMaps(const MapSource& source, LightMapFormat format);
 
 }  // namespace lucarne

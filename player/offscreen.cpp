@@ -1,6 +1,5 @@
 #include "player/offscreen.h"
 
-
 #include "base/error.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
@@ -10,9 +9,6 @@
 #include "player/read_back.h"
 
 namespace lucarne {
-namespace {
-
-}  // namespace
 
 void checkPictureSize(const RenderOptions& options) {
   const int limit = textureLimits().size;
@@ -47,18 +43,13 @@ ImageRgb supersampled(FrameRenderer& renderer, const FrameTarget& target, const 
   return sum;
 }
 
-}  // namespace
+std::uint64_t memoryFor(const RenderOptions& options) { return options.gpuMemory > 0 ? options.gpuMemory : freeGpuMemory(); }
 
-ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
-                     RenderStats* stats, const ImageRgb* sky) {
-  const Stopwatch watch;
-  const HeadlessGl gl;
-  checkPictureSize(options);
-  checkView(options, maps);
-  const MapFit fit =
-      fitMaps(maps, options.format, options.gpuMemory > 0 ? options.gpuMemory : freeGpuMemory(), textureLimits());
+ImageRgb drawn(const HeadlessGl& gl, const Scene& scene, const MapSource& source, const Camera& camera,
+               const RenderOptions& options, const Stopwatch& watch, RenderStats* stats, const ImageRgb* sky) {
+  const MapFit fit = fitMaps(source.maps, options.format, memoryFor(options), textureLimits());
   if (!fit.note.empty()) logWarning(fit.note);
-  FrameRenderer renderer(scene, fit.fewer ? *fit.fewer : maps, fit.format, 1.f, options.lobe);
+  FrameRenderer renderer(scene, fit.fewer ? MapSource(*fit.fewer) : source, fit.format, 1.f, options.lobe);
   if (sky != nullptr && !sky->pixels.empty()) renderer.setSky(*sky);
   const FrameTarget target(options.width, options.height, true);
   const double loaded = watch.seconds();
@@ -71,6 +62,27 @@ ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& ca
     stats->frameSeconds = watch.seconds() - loaded;
   }
   return image;
+}
+
+}  // namespace
+
+ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
+                     RenderStats* stats, const ImageRgb* sky) {
+  const Stopwatch watch;
+  const HeadlessGl gl;
+  checkPictureSize(options);
+  checkView(options, maps);
+  return drawn(gl, scene, maps, camera, options, watch, stats, sky);
+}
+
+ImageRgb renderImage(OpenedDlm& opened, const Camera& camera, const RenderOptions& options, RenderStats* stats,
+                     const ImageRgb* sky) {
+  const Stopwatch watch;
+  const HeadlessGl gl;
+  checkPictureSize(options);
+  checkView(options, opened.dlm.maps);
+  const MapSource source = sourceOf(opened, options.format, memoryFor(options), textureLimits());
+  return drawn(gl, opened.dlm.scene, source, camera, options, watch, stats, sky);
 }
 
 }  // namespace lucarne

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image_file.h"
-#include "dlm/light_maps.h"
+#include "player/map_source.h"
 #include "player/render_options.h"
 #include "tracer/scene/scene.h"
 
@@ -15,6 +15,9 @@ namespace lucarne {
 /// Error(outOfResource) when the maps do not fit.
 ImageRgb renderImage(const Scene& scene, const LightMaps& maps, const Camera& camera, const RenderOptions& options,
                      RenderStats* stats = nullptr, const ImageRgb* sky = nullptr);
+/// Of light maps whose directional maps may still be in their file. InputError when that is damaged.
+ImageRgb renderImage(OpenedDlm& opened, const Camera& camera, const RenderOptions& options, RenderStats* stats = nullptr,
+                     const ImageRgb* sky = nullptr);
 
 /// Error(usage) for a size that the current context cannot draw.
 void checkPictureSize(const RenderOptions& options);

@@ -16,11 +16,11 @@ namespace {
 
 class PathFrames {
  public:
-  PathFrames(const Scene& scene, const LightMaps& maps, const WalkPath& path, const PathFramesOptions& options)
+  PathFrames(const Scene& scene, const MapSource& maps, const WalkPath& path, const PathFramesOptions& options)
       : options_(options),
         path_(path),
         frame_(scene.frame),
-        renderer_(scene, maps, options.render.format, windowScale(scene, maps), options.render.lobe),
+        renderer_(scene, maps, options.render.format, windowScale(scene, maps.maps), options.render.lobe),
         target_(options.render.width, options.render.height, false),
         screen_(options.render.width, options.render.height),
         driver_(driverName()),
@@ -112,7 +112,7 @@ class PathFrames {
 
 }  // namespace
 
-Benchmark drawPath(const Scene& scene, const LightMaps& maps, const WalkPath& path, const PathFramesOptions& options,
+Benchmark drawPath(const Scene& scene, const MapSource& maps, const WalkPath& path, const PathFramesOptions& options,
                    const PathFramesSink& sink) {
   const Stopwatch watch;
   const HeadlessGl gl;

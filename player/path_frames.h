@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "dlm/light_maps.h"
 #include "player/benchmark.h"
+#include "player/map_source.h"
 #include "player/walk_path.h"
 
 namespace lucarne {
@@ -27,7 +27,7 @@ struct PathFramesSink {
 
 /// Calls the sink for each frame in order. A frame is the same whichever of those before it are wanted. Frame times
 /// (drawing and reading back) are of the frames wanted, but for the first. Errors as renderImage().
-Benchmark drawPath(const Scene& scene, const LightMaps& maps, const WalkPath& path, const PathFramesOptions& options,
+Benchmark drawPath(const Scene& scene, const MapSource& maps, const WalkPath& path, const PathFramesOptions& options,
                    const PathFramesSink& sink);
 
 }  // namespace lucarne

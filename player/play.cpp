@@ -130,7 +130,7 @@ class Session {
       return;
     }
     control_ = std::make_unique<WalkControl>(shown_->walk, options_.fly);
-    if (const std::string line = options_.remark ? options_.remark(shown_->dlm->scene, shown_->dlm->maps) : "";
+    if (const std::string line = options_.remark ? options_.remark(shown_->dlm().scene, shown_->dlm().maps) : "";
         !line.empty())
       logInfo(line);
     const std::string note = options_.fly ? "" : control_->startNote();
@@ -145,8 +145,8 @@ class Session {
   void takeUpLook() {
     FrameRenderer& renderer = shown_->renderer;
     if (!shown_->fit.note.empty()) logWarning(shown_->fit.note);
-    look_.view.psi = std::clamp(look_.view.psi, 0, std::max(0, shown_->dlm->maps.directionCount - 1));
-    tools_ = std::make_unique<LookTools>(shown_->dlm->scene, shown_->dlm->maps, options_.sky, renderer.outputScale());
+    look_.view.psi = std::clamp(look_.view.psi, 0, std::max(0, shown_->dlm().maps.directionCount - 1));
+    tools_ = std::make_unique<LookTools>(shown_->dlm().scene, shown_->dlm().maps, options_.sky, renderer.outputScale(), shown_->lightByDirection());
     tools_->settings = look_;
     if (!options_.sky.pixels.empty()) renderer.setSky(options_.sky);
   }
@@ -236,7 +236,7 @@ class Session {
   OverlayText drawScene(double step, Window::Size size) {
     const FrameTarget& frame = target(size);
     FrameRenderer& renderer = shown_->renderer;
-    handleLookKeys(look(), shown_->dlm->maps.directionCount, window_.takePresses());
+    handleLookKeys(look(), shown_->dlm().maps.directionCount, window_.takePresses());
     const bool screenshot = std::exchange(look().screenshot, false);
     FrameView view{control_->camera()};
     view.view = look().view;

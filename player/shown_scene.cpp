@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "dlm/dlm_reader_steps.h"
 #include "player/camera_choice.h"
+#include "player/stored_light.h"
 #include "player/texel_formats.h"
 
 namespace lucarne {
@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kReading = 0.7, kSorting = 0.75, kCompiling = 0.95;  // shares of the whole
+constexpr double kSending = 0.95;  // share of the whole: when all is read and sent
 
 }  // namespace
 
@@ -28,24 +28,35 @@ float windowScale(const Scene& scene, const LightMaps& maps) {
   return halfScale(largest);
 }
 
+LightByDirection ShownScene::lightByDirection() const {
+  if (!opened->directional) return {};
+  return [this](std::uint32_t side, Vec2d st) { return storedLight(renderer.maps(), dlm().maps, side, st); };
+}
+
 std::unique_ptr<ShownScene> loadScene(const SceneRequest& request, const LoadObserver& observe) {
   const Clock::time_point start = Clock::now();
-  auto read = std::make_unique<const Dlm>(
-      readDlm(request.dlm, [&](const std::string& step, double share) { observe(step, kReading * share); }));
-  const Dlm& dlm = *read;
-  observe("sorting the triangles", kReading);
+  auto opened = std::make_unique<OpenedDlm>(
+      openDlm(request.dlm, [&](const std::string& step, double share) { observe(step, kSending * share); }));
+  const Dlm& dlm = opened->dlm;
+  const double opening = kSending * opened->share;
+  observe("sorting the triangles", opening);
   auto walk = std::make_shared<const WalkScene>(dlm.scene, chooseCamera(dlm.scene, request.camera));
-  observe("sending the maps to the GPU", kSorting);
-  MapFit fit = fitMaps(dlm.maps, request.format, request.gpuMemory > 0 ? request.gpuMemory : freeGpuMemory(), textureLimits());
-  FrameRenderer renderer(dlm.scene, fit.fewer ? *fit.fewer : dlm.maps, fit.format, windowScale(dlm.scene, dlm.maps), request.lobe);
+  const std::string sending = "reading the directional maps";
+  observe(sending, opening);
+  const std::uint64_t memory = request.gpuMemory > 0 ? request.gpuMemory : freeGpuMemory();
+  MapSource source = sourceOf(*opened, request.format, memory, textureLimits());
+  source.progress = [&](double share) { observe(sending, opening + (kSending - opening) * share); };
+  MapFit fit = fitMaps(dlm.maps, request.format, memory, textureLimits());
+  FrameRenderer renderer(dlm.scene, fit.fewer ? MapSource(*fit.fewer) : source, fit.format, windowScale(dlm.scene, dlm.maps),
+                         request.lobe);
   fit.fewer.reset();  // they are on the GPU
-  observe("compiling the shaders", kCompiling);
+  observe("compiling the shaders", kSending);
   renderer.warmUp(request.renderer, request.view);
   glFinish();
   const double photons = photonsOf(dlm.manifest);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return std::make_unique<ShownScene>(
-      ShownScene{std::move(read), std::move(fit), std::move(renderer), std::move(walk), photons, seconds});
+      ShownScene{std::move(opened), std::move(fit), std::move(renderer), std::move(walk), photons, seconds});
 }
 
 }  // namespace lucarne

@@ -5,20 +5,25 @@
 #include <functional>
 #include <memory>
 
-#include "dlm/dlm_reader.h"
+#include "dlm/dlm_reader_steps.h"
 #include "player/frame_renderer.h"
+#include "player/inspector.h"
 #include "player/map_fit.h"
 #include "player/walk_control.h"
 
 namespace lucarne {
 
 struct ShownScene {
-  std::unique_ptr<const Dlm> dlm;  // that the tools ask
+  std::unique_ptr<const OpenedDlm> opened;  // that the tools ask
   MapFit fit;
   FrameRenderer renderer;
   std::shared_ptr<const WalkScene> walk;
   double photons;  // of the bake; 0: not known
   double loadSeconds;
+
+  const Dlm& dlm() const { return opened->dlm; }
+  /// As Inspector wants it: from the GPU, unless the texels are in memory.
+  LightByDirection lightByDirection() const;
 };
 
 /// Of the manifest's bake; 0: not known.

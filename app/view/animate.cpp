@@ -12,7 +12,6 @@
 #include "base/json.h"
 #include "base/log.h"
 #include "base/units.h"
-#include "dlm/dlm_reader.h"
 #include "player/path_frames.h"
 #include "player/shown_scene.h"
 
@@ -71,8 +70,8 @@ std::size_t framesOf(const WalkPath& path, const AnimationJob& job) {
   return count;
 }
 
-Benchmark draw(const AnimationJob& job, const WalkPath& path, const Dlm& dlm, AnimationReport& report) {
-  const PathFramesOptions options{job.options, job.fps, job.overlay, photonsOf(dlm.manifest)};
+Benchmark draw(const AnimationJob& job, const WalkPath& path, OpenedDlm& opened, AnimationReport& report) {
+  const PathFramesOptions options{job.options, job.fps, job.overlay, photonsOf(opened.dlm.manifest)};
   const bool keeps = !job.output.empty();
   PathFramesSink sink;
   sink.isWanted = [&](std::size_t frame) { return !keeps || !fs::exists(frameFile(job.output, frame)); };
@@ -81,7 +80,7 @@ Benchmark draw(const AnimationJob& job, const WalkPath& path, const Dlm& dlm, An
     if (++report.drawn % kFramesPerNote == 0)
       logInfo("frame " + std::to_string(frame + 1) + " of " + std::to_string(report.frames));
   };
-  return drawPath(dlm.scene, dlm.maps, path, options, sink);
+  return drawPath(opened.dlm.scene, sourceOf(opened, job.options.format, 0, {}), path, options, sink);
 }
 
 }  // namespace
@@ -91,9 +90,9 @@ AnimationReport animate(const AnimationJob& job) {
   AnimationReport report;
   report.frames = framesOf(path, job);
   if (!job.benchmark.empty()) checkWritable(job.benchmark);
-  const Dlm dlm = readDlm(job.dlm);
-  if (!job.output.empty()) takeFolder(job.output, originOf(job, dlm.manifest));
-  const Benchmark benchmark = draw(job, path, dlm, report);
+  OpenedDlm opened = openDlm(job.dlm, [](const std::string&, double) {});
+  if (!job.output.empty()) takeFolder(job.output, originOf(job, opened.dlm.manifest));
+  const Benchmark benchmark = draw(job, path, opened, report);
   report.stats = benchmark.stats;
   if (!job.benchmark.empty()) writeFileAtomically(job.benchmark, textOf(benchmark));
   if (!job.output.empty() && makeVideo(job.output, job.fps, job.output / "walk.mp4"))

@@ -25,10 +25,11 @@ namespace {
 
 /// Draws light maps; what the overlay tells of them into `text`.
 ImageRgb drawn(const RenderJob& job, RenderReport& report, OverlayText& text) {
-  const Dlm dlm = readDlm(job.dlm);
+  OpenedDlm opened = openDlm(job.dlm, [](const std::string&, double) {});
+  const Dlm& dlm = opened.dlm;
   const ImageRgb sky = loadSky(job.sky);
   report.otherwise = shownOtherwise(dlm.scene, dlm.maps);
-  ImageRgb image = renderImage(dlm.scene, dlm.maps, chooseCamera(dlm.scene, job.camera), job.options, &report.stats, &sky);
+  ImageRgb image = renderImage(opened, chooseCamera(dlm.scene, job.camera), job.options, &report.stats, &sky);
   text.renderer = job.options.renderer;
   text.frameSeconds = text.lastFrameSeconds = report.stats.frameSeconds;
   text.stats = report.stats;
