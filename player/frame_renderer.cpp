@@ -142,14 +142,26 @@ void FrameRenderer::draw(const FrameView& view, RendererKind renderer, const Fra
   stats_.visibleCharts = static_cast<std::uint64_t>(std::count(visible.begin(), visible.end(), 1));
 }
 
-void FrameRenderer::warmUp(RendererKind renderer, const View& view) {
+void FrameRenderer::drawSmall(RendererKind renderer, const View& view, const std::vector<std::uint8_t>& visible) {
   FrameView small;
   small.camera.yfov = 1;
   small.view = view;
   constexpr int kSide = 17;  // no power of two, like most windows: llvmpipe compiles for those apart
   const FrameTarget target(kSide, kSide, scaleOf(view.kind) == ViewScale::number);
-  drawRuns(small, rendererFor(view, renderer), std::vector<std::uint8_t>(scene_.list.runs.size(), 1), target);
+  drawRuns(small, rendererFor(view, renderer), visible, target);
+}
+
+void FrameRenderer::warmUpBeside(RendererKind renderer, const View& view) {
+  std::vector<std::uint8_t> visible(scene_.list.runs.size(), 0);
+  for (const Batch& batch : scene_.list.batches) visible[batch.firstRun] = 1;
+  drawSmall(renderer, view, visible);
   scene_.forgetLayout();
+}
+
+void FrameRenderer::warmUp(RendererKind renderer, const View& view, std::size_t step) {
+  std::vector<std::uint8_t> visible(scene_.list.runs.size(), 0);
+  visible[scene_.list.batches[step].firstRun] = 1;
+  drawSmall(renderer, view, visible);
 }
 
 void FrameRenderer::drawRuns(const FrameView& view, MapRenderer& shading, const std::vector<std::uint8_t>& visible,

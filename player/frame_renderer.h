@@ -27,9 +27,12 @@ class FrameRenderer {
   /// is.
   void draw(const FrameView& view, RendererKind renderer, const FrameTarget& target);
 
-  /// Draws everything once, out of sight, so that the driver has compiled what frames with that renderer and view need.
-  /// May be called in another context than the one that draws later, if both share their objects.
-  void warmUp(RendererKind renderer, const View& view);
+  /// Draws something of each material once, out of sight, so that the driver has compiled what frames with that renderer
+  /// and view need. In another context than the one that draws later, which shares its objects.
+  void warmUpBeside(RendererKind renderer, const View& view);
+  /// What drivers compile for each context alone: the same for one of warmUpSteps() materials, in the context that draws.
+  void warmUp(RendererKind renderer, const View& view, std::size_t step);
+  std::size_t warmUpSteps() const { return scene_.list.batches.size(); }
 
   /// Shown where there is no surface, instead of black; equirectangular, cd/m² (sky_pass.h).
   void setSky(const ImageRgb& image);
@@ -43,6 +46,7 @@ class FrameRenderer {
   const RenderStats& stats() const { return stats_; }
 
  private:
+  void drawSmall(RendererKind renderer, const View& view, const std::vector<std::uint8_t>& visible);
   void uploadCamera(const FrameView& view, const FrameTarget& target) const;
   void prepass(const DrawContext& context, const FrameTarget& target, bool withClear);
   void drawRuns(const FrameView& view, MapRenderer& shading, const std::vector<std::uint8_t>& visible,

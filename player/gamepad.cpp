@@ -40,7 +40,10 @@ double stickShare(double axis) {
 
 void Gamepad::add(WalkInput& input, std::vector<WalkKey>& keys, double seconds) {
   GLFWgamepadstate pad;
-  if (!firstGamepad(pad)) return;
+  if (firstGamepad(pad)) take(pad, input, keys, seconds);
+}
+
+void Gamepad::take(const GLFWgamepadstate& pad, WalkInput& input, std::vector<WalkKey>& keys, double seconds) {
   const auto stick = [&](int axis) { return stickShare(static_cast<double>(pad.axes[axis])); };
   const auto pressed = [&](int button) { return pad.buttons[button] == GLFW_PRESS; };
   const auto add = [](double& to, double value) { to = std::clamp(to + value, -1.0, 1.0); };

@@ -11,7 +11,7 @@
 namespace lucarne {
 namespace {
 
-constexpr float kRadius = 80, kMargin = 24;  // pixels; spots near the horizon reach beyond it
+constexpr float kMargin = 0.3f;  // radii; spots near the horizon reach beyond it
 
 ImU32 colourOf(Rgbd radiance, double white) {
   const auto code = [&](double v) {
@@ -36,7 +36,7 @@ std::vector<LightSpot> lightSpots(const ProbeAnswer& answer, Vec3d normal) {
   return spots;
 }
 
-void drawLightPlot(const ProbeAnswer& answer, Vec3d normal) {
+void drawLightPlot(const ProbeAnswer& answer, Vec3d normal, float radius) {
   if (answer.directions.empty()) {
     ImGui::TextUnformatted("light not kept by direction");
     return;
@@ -46,17 +46,18 @@ void drawLightPlot(const ProbeAnswer& answer, Vec3d normal) {
   for (const LightSpot& s : spots) white = std::max(white, maxComponent(s.radiance));
   ImGui::Text("light by direction, white %.3g cd/m2", white);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 middle{corner.x + kMargin + kRadius, corner.y + kMargin + kRadius};
+  const float half = (1 + kMargin) * radius;
+  const ImVec2 middle{corner.x + half, corner.y + half};
   ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddCircleFilled(middle, kRadius, IM_COL32(20, 20, 24, 255), 64);
+  list->AddCircleFilled(middle, radius, IM_COL32(20, 20, 24, 255), 64);
   for (const LightSpot& s : spots) {
-    const ImVec2 at{middle.x + kRadius * static_cast<float>(s.centre.x),
-                    middle.y - kRadius * static_cast<float>(s.centre.y)};
-    list->AddCircleFilled(at, std::max(kRadius * static_cast<float>(s.radius), 1.5f),
+    const ImVec2 at{middle.x + radius * static_cast<float>(s.centre.x),
+                    middle.y - radius * static_cast<float>(s.centre.y)};
+    list->AddCircleFilled(at, std::max(radius * static_cast<float>(s.radius), 1.5f),
                           colourOf(s.radiance, std::max(white, 1e-300)), 24);
   }
-  list->AddCircle(middle, kRadius, IM_COL32(160, 160, 160, 255), 64);
-  ImGui::Dummy({2 * (kMargin + kRadius), 2 * (kMargin + kRadius)});
+  list->AddCircle(middle, radius, IM_COL32(160, 160, 160, 255), 64);
+  ImGui::Dummy({2 * half, 2 * half});
 }
 
 }  // namespace lucarne

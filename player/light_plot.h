@@ -18,7 +18,7 @@ struct LightSpot {
 /// `normal`: unit. Right in the disc is horizontal, up is what of +y (else −z) lies in the surface.
 std::vector<LightSpot> lightSpots(const ProbeAnswer& answer, Vec3d normal);
 
-/// Inside a window of Dear ImGui; the brightest spot is white.
-void drawLightPlot(const ProbeAnswer& answer, Vec3d normal);
+/// Inside a window of Dear ImGui; the brightest spot is white. `radius` of the disc in pixels.
+void drawLightPlot(const ProbeAnswer& answer, Vec3d normal, float radius);
 
 }  // namespace lucarne

@@ -22,6 +22,8 @@ const char* const kLookKeysHelp =
 
 namespace {
 
+constexpr float kEdge = 8;  // pixels between windows and the edge of the picture
+
 int wrapped(int psi, int count) { return (psi % count + count) % count; }
 
 void toggle(bool& value) { value = !value; }
@@ -83,10 +85,12 @@ void handleLookMouse(LookSettings& look) {
   if (!ImGui::GetIO().WantCaptureMouse && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) look.inspectAt = underMouse();
 }
 
-void drawLookPanel(LookSettings& look, int directionCount) {
+void drawLookPanel(LookSettings& look, int directionCount, float height) {
   if (!look.panel) return;
   const ImGuiIO& io = ImGui::GetIO();
-  ImGui::SetNextWindowPos({io.DisplaySize.x - 8, 8}, ImGuiCond_FirstUseEver, {1, 0});
+  ImGui::SetNextWindowPos({io.DisplaySize.x - kEdge, kEdge}, ImGuiCond_FirstUseEver, {1, 0});
+  constexpr float kLeast = 80;
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {io.DisplaySize.x, std::max(height, kLeast)});
   ImGui::Begin("look", &look.panel, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   if (ImGui::BeginCombo("view", nameOf(look.view.kind).data())) {
     for (const ViewName& v : kViewNames) {
@@ -135,10 +139,10 @@ void drawDivider(LookSettings& look, const std::string& state) {
   over->AddText({look.divider * size.x + 10, y}, IM_COL32_WHITE, ("truth: " + state).c_str());
 }
 
-void drawInspection(const Inspection& found) {
+float drawInspection(const Inspection& found) {
   const ImGuiIO& io = ImGui::GetIO();
   const ProbeAnswer& answer = found.answer;
-  ImGui::SetNextWindowPos({io.DisplaySize.x - 8, io.DisplaySize.y - 8}, ImGuiCond_Always, {1, 1});
+  ImGui::SetNextWindowPos({io.DisplaySize.x - kEdge, io.DisplaySize.y - kEdge}, ImGuiCond_Always, {1, 1});
   ImGui::SetNextWindowBgAlpha(0.7f);
   ImGui::Begin("here", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
@@ -154,9 +158,12 @@ void drawInspection(const Inspection& found) {
     ImGui::Text("irradiance  %.4g %.4g %.4g lx", E.x, E.y, E.z);
     ImGui::Text("its error   %.3g lx (%.2g %%)", answer.standardError, 100 * answer.relativeError);
     ImGui::Text("photons     %.0f", answer.photons);
-    drawLightPlot(answer, found.normal);
+    // In low windows smaller, to leave room for the controls above.
+    drawLightPlot(answer, found.normal, std::clamp(io.DisplaySize.y / 10 - 8, 40.f, 80.f));
   }
+  const float height = ImGui::GetWindowHeight();
   ImGui::End();
+  return height;
 }
 
 }  // namespace lucarne

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "base/handover.h"
+#include "base/huge_heap.h"
 #include "dlm/texel_rows.h"
 #include "player/gl_context.h"
 #include "player/texel_coding.h"
@@ -94,15 +96,24 @@ class PageSender {
   GLuint texture_;
 };
 
+/// Texels between the maps count for nothing, but must be numbers. Software drivers fill new images, which lie in the
+/// program's own memory, with zeros themselves.
+GlTexture emptyPages(const LayeredPacking& packing, const PixelCoding& coding, std::size_t bytes) {
+  const bool software = isSoftwareDriver(driverName());
+  std::optional<HugeHeap> heap;
+  if (software) heap.emplace(bytes);
+  GlTexture texture = makeTexture({GL_TEXTURE_2D_ARRAY, coding.internal, 1, packing.width, packing.height, packing.layers});
+  if (!software) glClearTexImage(texture.get(), 0, coding.layout, coding.type, nullptr);
+  return texture;
+}
+
 }  // namespace
 
 GlTexture streamDirectional(const MapSource& source, const MapTables& tables, LightMapFormat format) {
   const DirectionalFile& file = *source.directional;
   const PixelCoding coding = codingOf(format);
   const LayeredPacking& packing = tables.directional;
-  GlTexture texture = makeTexture({GL_TEXTURE_2D_ARRAY, coding.internal, 1, packing.width, packing.height, packing.layers});
-  // Texels between the maps count for nothing, but must be numbers. Software drivers fill new images with zeros themselves.
-  if (!isSoftwareDriver(driverName())) glClearTexImage(texture.get(), 0, coding.layout, coding.type, nullptr);
+  GlTexture texture = emptyPages(packing, coding, packing.texels() * bytesPerTexel(format));
   const PageSender sender(tables, format, texture.get());
   Handover handover;
   std::size_t done = 0;

@@ -13,6 +13,9 @@ namespace {
 
 using Count = unsigned long long;
 
+constexpr float kEdge = 8;       // pixels between windows
+constexpr float kBothFit = 640;  // pixels: the height that numbers and help take together
+
 void drawNumbers(const OverlayText& t, const LookSettings& look) {
   const StateCounts &now = t.stats.counts, &unsorted = t.stats.unsorted;
   ImGui::Text("%.1f fps   %.1f ms   %d x %d (scale %.2f)", t.frameSeconds > 0 ? 1 / t.frameSeconds : 0.,
@@ -103,24 +106,28 @@ void Overlay::newFrame(const OverlayText& text) {
 
 void Overlay::layOut(const OverlayText& text, LookSettings& look) {
   newFrame(text);
-  ImGui::SetNextWindowPos({8, 8});
+  ImGui::SetNextWindowPos({kEdge, kEdge});
   ImGui::SetNextWindowBgAlpha(0.55f);
   ImGui::Begin("lucarne", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
   drawNote(text.note);
+  const float height = ImGui::GetIO().DisplaySize.y;
   if (text.stats.directions > 0) {
-    drawNumbers(text, look);
-    drawGraph();
+    if (!text.help || height > kBothFit) {
+      drawNumbers(text, look);
+      drawGraph();
+    }
     drawHelp(text.help);
   }
   ImGui::End();
+  const bool found = text.found != nullptr && text.found->has_value();
+  const float below = found ? drawInspection(**text.found) + kEdge : 0;
   if (text.stats.directions > 0) {
     handleLookMouse(look);
-    drawLookPanel(look, text.stats.directions);
+    drawLookPanel(look, text.stats.directions, height - below - 2 * kEdge);
     drawDivider(look, text.truth);
   }
-  if (text.found != nullptr && text.found->has_value()) drawInspection(**text.found);
   ImGui::Render();
 }
 

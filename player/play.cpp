@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/huge_heap.h"
 #include "base/image_file.h"
 #include "base/log.h"
 #include "base/units.h"
@@ -33,6 +34,7 @@ using Clock = std::chrono::steady_clock;
 constexpr float kStopPerKey = 0.5f;
 constexpr double kLookInterval = 0.5, kNoteSeconds = 5;             // seconds
 constexpr double kMinimisedWait = 0.1, kLoadingWait = 1.0 / 30;      // seconds between frames with nothing to draw
+constexpr double kWarmUpSeconds = 0.05;                              // a frame
 
 double secondsBetween(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
@@ -76,7 +78,7 @@ class Session {
     Clock::time_point last = Clock::now();
     double step = 0;
     while (!window_.closing()) {
-      window_.poll(window_.isMinimised() ? kMinimisedWait : shown_ ? 0 : kLoadingWait);
+      window_.poll(window_.isMinimised() ? kMinimisedWait : shown_ || pending_ ? 0 : kLoadingWait);
       if (options_.ended && options_.ended()) window_.close();
       handleKeys();
       keepLoaded();
@@ -101,8 +103,9 @@ class Session {
 
   void keepLoaded() {
     if (loader_ && loader_->isDone()) takeLoaded();
+    if (pending_) warmUp();
     const Clock::time_point now = Clock::now();
-    if (!options_.watch || loader_ || secondsBetween(lookedAt_, now) < kLookInterval) return;
+    if (!options_.watch || loader_ || pending_ || secondsBetween(lookedAt_, now) < kLookInterval) return;
     lookedAt_ = now;
     if (watch_.changed()) startLoading();
   }
@@ -111,20 +114,38 @@ class Session {
   void takeLoaded() {
     const std::unique_ptr<SceneLoader> loader = std::move(loader_);
     try {
-      std::unique_ptr<ShownScene> loaded = loader->take();
-      if (tools_) look_ = tools_->settings;
-      tools_.reset();
-      shown_ = std::move(loaded);
+      pending_ = loader->take();
+      warmedUp_ = 0;
       failure_.clear();
-      takeUpLook();
-      eye_ = {};  // other maps are exposed as they should be at once
-      sinceLoaded_ = 0;
     } catch (const Error& error) {
       if (!shown_) throw;
       failure_ = std::string("not reloaded: ") + error.what();
       logWarning(failure_);
-      return;
     }
+  }
+
+  /// What the driver compiles for the window alone, a little a frame; then the scene is shown.
+  void warmUp() {
+    const Clock::time_point start = Clock::now();
+    FrameRenderer& renderer = pending_->renderer;
+    while (warmedUp_ < renderer.warmUpSteps() && secondsBetween(start, Clock::now()) < kWarmUpSeconds) {
+      renderer.warmUp(kind_, look().view, warmedUp_++);
+      glFinish();
+    }
+    if (warmedUp_ < renderer.warmUpSteps()) return;
+    target(window_.framebufferSize());  // its memory, too, is new
+    showPending();
+  }
+
+  void showPending() {
+    if (tools_) look_ = tools_->settings;
+    tools_.reset();
+    const bool first = !shown_;
+    shown_ = std::move(pending_);
+    if (!first) releaseFreedMemory();
+    takeUpLook();
+    eye_ = {};  // other maps are exposed as they should be at once
+    sinceLoaded_ = 0;
     if (control_) {
       control_->moveTo(shown_->walk);
       return;
@@ -165,6 +186,7 @@ class Session {
   }
   std::string note() const {
     if (loader_) return loader_->progress();
+    if (pending_) return "compiling the shaders";
     return noteSeconds_ > 0 && !note_.empty() ? note_ : failure_;
   }
 
@@ -194,7 +216,7 @@ class Session {
           help_ = !help_;
           break;
         case WalkKey::reload:
-          if (!loader_) startLoading();
+          if (!loader_ && !pending_) startLoading();
           break;
         default:
           pressForWalk(key);
@@ -280,6 +302,7 @@ class Session {
     if (shown_) {
       text = drawScene(step, size);
     } else {
+      if (warmDisplay_ > 0) warmUpDisplay(size, --warmDisplay_);
       clear(size);
     }
     text.note = note();
@@ -287,6 +310,18 @@ class Session {
     if (options_.frames > 0 && frame_ >= static_cast<std::uint64_t>(options_.frames)) window_.close();
     if (window_.closing() && shown_ && !options_.screenshot.empty()) saveWindow(options_.screenshot, size);
     window_.swap();
+  }
+
+  /// The last passes of a frame, compiled before there is one, one after the other.
+  void warmUpDisplay(Window::Size size, int pass) {
+    const FrameTarget small(17, 17, false);
+    if (pass == 1) {
+      display_.meter(small, ViewScale::light);
+      return;
+    }
+    DisplayStyle style;
+    style.smoothEdges = look().smoothEdges;
+    display_.show(small, style, size.width, size.height);
   }
 
   static void clear(Window::Size size) {
@@ -365,7 +400,7 @@ class Session {
   LookSettings look_;  // before and between scenes; else that of the tools
   FolderWatch watch_;
   Clock::time_point lookedAt_{};
-  std::unique_ptr<ShownScene> shown_;
+  std::unique_ptr<ShownScene> shown_, pending_;  // pending: loaded, but not yet to be drawn
   std::unique_ptr<LookTools> tools_;  // of shown_
   std::unique_ptr<WalkControl> control_;
   std::unique_ptr<FrameTarget> target_;
@@ -374,6 +409,8 @@ class Session {
   double seconds_ = 0, smoothedStep_ = 0, noteSeconds_ = 0;
   ViewKind meteredView_ = ViewKind::full;
   bool targetIsExact_ = false, help_ = false;
+  std::size_t warmedUp_ = 0;  // steps of pending_
+  int warmDisplay_ = 2;       // calls of warmUpDisplay() to come
   std::string note_, failure_;
   Benchmark benchmark_;
   std::unique_ptr<SceneLoader> loader_;  // last: it ends before what it shares

@@ -51,7 +51,7 @@ std::unique_ptr<ShownScene> loadScene(const SceneRequest& request, const LoadObs
                          request.lobe);
   fit.fewer.reset();  // they are on the GPU
   observe("compiling the shaders", kSending);
-  renderer.warmUp(request.renderer, request.view);
+  renderer.warmUpBeside(request.renderer, request.view);
   glFinish();
   const double photons = photonsOf(dlm.manifest);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
