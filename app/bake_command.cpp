@@ -41,6 +41,7 @@ std::string settingsText(const BakeOptions& o) {
   add(o.texelsPerMetre != standard.texelsPerMetre, "--density " + shortest(o.texelsPerMetre));
   add(o.texelBudget != standard.texelBudget, "--texels " + formatExactCount(o.texelBudget));
   add(o.keepAllDirections, "--keep-all-directions");
+  add(o.directionFilter != standard.directionFilter, "--direction-filter " + name(names, "direction_filter"));
   add(o.moments, "--moments");
   add(o.seed != standard.seed, "--seed " + std::to_string(o.seed));
   add(o.sampler != standard.sampler, "--sampler " + name(names, "sampler"));

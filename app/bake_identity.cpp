@@ -39,6 +39,7 @@ BakeOptions readOptions(const PartHeader& header, const std::string& file) {
   o.texelBudget = s.at("texel_budget").count();
   o.charts = choiceAt<ChartMode>(s.at("charts"), kChartModes);
   o.keepAllDirections = s.at("keep_all_directions").flag();
+  o.directionFilter = choiceAt<DirectionFilter>(s.at("direction_filter"), kDirectionFilters);
   o.seed = s.at("seed").count();
   o.sampler = choiceAt<SamplerKind>(s.at("sampler"), kSamplers);
   o.light = choiceAt<LightPart>(s.at("light"), kLightParts);
@@ -70,7 +71,7 @@ json traceSettings(const BakeOptions& o) {
           {"texel_budget", o.texelBudget},
           {"charts", kChartModes[static_cast<std::size_t>(o.charts)]},
           {"keep_all_directions", o.keepAllDirections},
-          {"direction_filter", "nearest"},
+          {"direction_filter", nameOf(o.directionFilter)},
           {"seed", o.seed},
           {"sampler", kSamplers[static_cast<std::size_t>(o.sampler)]},
           {"environment", o.environmentHash},

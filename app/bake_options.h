@@ -8,6 +8,7 @@
 
 #include "distributed/part_header.h"
 #include "dlm/deposit.h"
+#include "dlm/direction_filter.h"
 #include "dlm/dlm_writer.h"
 #include "dlm/kernel.h"
 
@@ -50,6 +51,7 @@ struct BakeOptions {
   std::uint64_t texelBudget = 1'000'000;
   ChartMode charts = ChartMode::automatic;
   bool keepAllDirections = false;
+  DirectionFilter directionFilter = DirectionFilter::nearest;
   bool moments = false;  // mean directions beside the light of each cell (tally.h)
   KernelOptions kernel{KernelShape::adaptive, defaultKernelWidth(KernelShape::adaptive)};
   SeamMode seams = SeamMode::fit;

@@ -21,7 +21,7 @@ BakePlan makePlan(const Scene& scene, const BakeOptions& options, std::uint64_t 
   chartOptions.useUv1 = options.charts == ChartMode::automatic;
   ChartSet charts = growCharts(scene, chartOptions);
   TexelLayout layout = layOutTexels(scene, charts, {options.texelsPerMetre, options.texelBudget, texelLimit});
-  DirectionSet directions(options.directions);
+  DirectionSet directions(options.directions, options.directionFilter);
   TallyLayout tallies = planTallies(scene, charts, layout, directions, tallyWishes(options));
   return {std::move(charts), std::move(layout), std::move(directions), std::move(tallies)};
 }
@@ -40,6 +40,7 @@ Baked resolveBake(const Scene& scene, const BakePlan& plan, const BakeOptions& o
                         header.ledger.photons, baked.direct.samples.count(), baked.direct.samples.countOdd(),
                         *baked.contacts},
                        options.kernel, &baked.kernelBias);
+  baked.maps.directionFilter = options.directionFilter;
   const SeamSet seams = findSeams(scene, plan.charts, plan.layout, baked.maps, *baked.contacts);
   baked.seams = fitSeams(seams, plan.layout, baked.maps, options.seams == SeamMode::fit);
   baked.dropped = dropFaintMaps(baked.maps, options.dropError);

@@ -25,6 +25,7 @@ nlohmann::json settingsOf(const BakeOptions& o) {
           {"texels_per_metre", o.texelsPerMetre},
           {"texel_budget", o.texelBudget},
           {"keep_all_directions", o.keepAllDirections},
+          {"direction_filter", nameOf(o.directionFilter)},
           {"format", nameOf(o.format.directional)}};
 }
 

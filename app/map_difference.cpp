@@ -10,7 +10,7 @@ double square(double x) { return x * x; }
 }  // namespace
 
 MapDifference::MapDifference(const Dlm& a, const Dlm& b) : charts(a.maps.charts.size()) {
-  if (a.maps.directionCount == b.maps.directionCount)
+  if (a.maps.directionCount == b.maps.directionCount && a.maps.directionFilter == b.maps.directionFilter)
     directions.resize(static_cast<std::size_t>(a.maps.directionCount));
 }
 

@@ -84,6 +84,7 @@ constexpr Named kNamed[] = {{"--photons", "photons"},
                             {"--texels", "texel_budget"},
                             {"--charts", "charts"},
                             {"--keep-all-directions", "keep_all_directions"},
+                            {"--direction-filter", "direction_filter"},
                             {"--moments", "moments"},
                             {"--seed", "seed"},
                             {"--sampler", "sampler"},
@@ -125,6 +126,7 @@ BakeOptions joined(BakeOptions into, const BakeOptions& settings) {
   into.texelBudget = settings.texelBudget;
   into.charts = settings.charts;
   into.keepAllDirections = settings.keepAllDirections;
+  into.directionFilter = settings.directionFilter;
   into.moments = settings.moments;
   into.kernel = settings.kernel;
   into.seams = settings.seams;

@@ -24,6 +24,10 @@ void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts) {
                         {{"photons", DirectMode::photons}, {"gathered", DirectMode::gathered}}, "photons",
                         "light straight from lamps and sky: brought by photons, or gathered at every texel");
   cmd.add_option("--direct-samples", texts.directSamples, "of --direct gathered: samples a texel")->capture_default_str();
+  addChoice<DirectionFilter>(cmd, "--direction-filter", o.directionFilter,
+                             {{"nearest", DirectionFilter::nearest}, {"linear", DirectionFilter::linear}}, "nearest",
+                             "nearest: light counts in the cell that it comes from; linear: it is shared among the three "
+                             "directions around it");
   cmd.add_flag("--moments", o.moments,
                "the mean direction of each cell's light and how far it spreads, too: sharper highlights in their true places, "
                "for more memory and disk");

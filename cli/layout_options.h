@@ -14,7 +14,7 @@ struct LayoutTexts {
   std::string photons = "20M", directions = "auto", texels = "1M", directSamples = "64";
 };
 
-/// --photons, --directions, --density, --charts, --texels, --direct, --direct-samples, --moments, --keep-all-directions. `o` and
+/// --photons, --directions, --density, --charts, --texels, --direct, --direct-samples, --direction-filter, --moments, --keep-all-directions. `o` and
 /// `texts` must outlive the parsing.
 void addLayoutOptions(CLI::App& cmd, BakeOptions& o, LayoutTexts& texts);
 /// After parsing: UsageError for texts that are no numbers.

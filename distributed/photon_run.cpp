@@ -39,7 +39,7 @@ class Worker {
   virtual void reset() = 0;
 };
 
-template <bool shared, bool moments>
+template <bool shared, bool moments, bool linear>
 class SinkWorker final : public Worker {
  public:
   SinkWorker(const PhotonTask& task, const PhotonRunOptions& options, const Tallies& tallies)
@@ -73,7 +73,7 @@ class SinkWorker final : public Worker {
  private:
   const PhotonTask& task_;
   const PhotonRunOptions& options_;
-  DepositSink<shared, moments> sink_;
+  DepositSink<shared, moments, linear> sink_;
   Ledger ledger_;
 };
 
@@ -156,8 +156,15 @@ class PhotonRun::Impl {
  private:
   template <bool shared>
   std::unique_ptr<Worker> makeWorker(const Tallies& tallies) const {
-    if (task_.layout.momentEntries > 0) return std::make_unique<SinkWorker<shared, true>>(task_, options_, tallies);
-    return std::make_unique<SinkWorker<shared, false>>(task_, options_, tallies);
+    const bool moments = task_.layout.momentEntries > 0, linear = task_.directions.triangles() != nullptr;
+    if (moments && linear) return makeWorkerOf<shared, true, true>(tallies);
+    if (moments) return makeWorkerOf<shared, true, false>(tallies);
+    if (linear) return makeWorkerOf<shared, false, true>(tallies);
+    return makeWorkerOf<shared, false, false>(tallies);
+  }
+  template <bool shared, bool moments, bool linear>
+  std::unique_ptr<Worker> makeWorkerOf(const Tallies& tallies) const {
+    return std::make_unique<SinkWorker<shared, moments, linear>>(task_, options_, tallies);
   }
 
   /// How many, from the beginning of the range.

@@ -7,6 +7,7 @@ TexelMap::TexelMap(const Scene& scene, const ChartSet& charts, const TexelLayout
     const MemberSet& set = tallies.membersOf(s);
     sides_.push_back({s.width, s.height, s.firstLight, s.firstTexel, s.texelCount(), s.firstMoment,
                       set.members.empty() ? nullptr : set.rank.data()});
+    members_.push_back(set.members.data());
   }
   entries_.resize(scene.triangles.size(), Entry{{}, {}, {}, kNone, kNone});
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {

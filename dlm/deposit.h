@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/huge_allocator.h"
+#include "dlm/direction_shares.h"
 #include "dlm/tally.h"
 #include "tracer/transport/photon_hit.h"
 #include "tracer/transport/shading_normal.h"
@@ -35,10 +36,13 @@ class TexelMap {
   TexelMap(const Scene& scene, const ChartSet& charts, const TexelLayout& layout, const TallyLayout& tallies);
   const Entry& operator[](std::uint32_t triangle) const { return entries_[triangle]; }
   const Side& side(std::uint32_t i) const { return sides_[i]; }
+  /// ψ by rank of a side with maps by direction.
+  const std::uint16_t* members(std::uint32_t i) const { return members_[i]; }
 
  private:
   std::vector<Entry, HugeAllocator<Entry>> entries_;
   std::vector<Side> sides_;
+  std::vector<const std::uint16_t*> members_;  // by side; only shared hits read it
 };
 
 /// Sums of what the sink stored, in tally units.
@@ -48,8 +52,9 @@ struct DepositSums {
 };
 
 /// One thread's sink. `shared`: other threads add to the same tallies (relaxed atomic adds), else plain adds. `moments`:
-/// the tallies have them. Flushed by flush(), which must be called before the tallies are read.
-template <bool shared, bool moments = false>
+/// the tallies have them. `linear`: a hit is shared among directions, as directionShares() tells; the texel's sum over ψ, and
+/// its statistics, are the same numbers as without. Flushed by flush(), which must be called before the tallies are read.
+template <bool shared, bool moments = false, bool linear = false>
 class DepositSink {
  public:
   DepositSink(const TexelMap& map, const TallyLayout&, const DirectionSet& directions, LightPart part,
@@ -75,9 +80,15 @@ class DepositSink {
     const int y = std::min(std::max(static_cast<int>(st.y), 0), side.height - 1);
     const auto texel =
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(side.width) + static_cast<std::uint64_t>(x);
+    const Rgb value = received(h);
+    if constexpr (linear) {
+      if (side.rank != nullptr) {
+        holdShares(side, directionShares(directions_, side.rank, map_.members(sideIndex), h.wi), texel, value, h);
+        return;
+      }
+    }
     const std::uint64_t rank =
         side.rank == nullptr ? 0 : side.rank[static_cast<std::size_t>(directions_.nearest(h.wi))];
-    const Rgb value = received(h);
     hold(side.firstLight + rank * side.texelCount + texel, side.firstTexel + texel, value, h);
     if constexpr (moments) {
       if (side.rank != nullptr) holdMoment(side.firstMoment + rank * side.texelCount + texel, luminance(value), h);
@@ -140,8 +151,17 @@ class DepositSink {
   }
 
   [[gnu::always_inline]] void hold(std::uint64_t entry, std::uint64_t texel, const Rgb& value, const PhotonHit& h) {
-    const std::int64_t r = roundUnits(value.x, h.words[0]), g = roundUnits(value.y, h.words[1]),
-                       b = roundUnits(value.z, h.words[2]);
+    holdUnits(entry, texel, unitsOf(value, h), value, h);
+  }
+
+  [[gnu::always_inline]] static std::array<std::int64_t, 3> unitsOf(const Rgb& value, const PhotonHit& h) {
+    return {roundUnits(value.x, h.words[0]), roundUnits(value.y, h.words[1]), roundUnits(value.z, h.words[2])};
+  }
+
+  [[gnu::always_inline]] void holdUnits(std::uint64_t entry, std::uint64_t texel,
+                                        const std::array<std::int64_t, 3>& units, const Rgb& value,
+                                        const PhotonHit& h) {
+    const auto [r, g, b] = units;
     incident_.units = {incident_.units[0] + r, incident_.units[1] + g, incident_.units[2] + b};
     ++sums_.storedHits;
     held_.push_back({entry, {r, g, b}, texel, luminance(value), (h.words[3] & ~kOddBit) | (h.odd ? kOddBit : 0u)});
@@ -151,10 +171,41 @@ class DepositSink {
   }
 
   /// The light took the lowest 8 bits of the words.
-  void holdMoment(std::uint64_t entry, float light, const PhotonHit& h) {
+  static std::array<std::int64_t, 3> momentUnits(float light, const PhotonHit& h) {
     const Vec3f m = momentOf(light, h.wi);
-    heldMoments_.push_back({entry, {roundUnits(m.x, h.words[0] >> 8), roundUnits(m.y, h.words[1] >> 8),
-                                    roundUnits(m.z, h.words[2] >> 8)}});
+    return {roundUnits(m.x, h.words[0] >> 8), roundUnits(m.y, h.words[1] >> 8), roundUnits(m.z, h.words[2] >> 8)};
+  }
+  void holdMoment(std::uint64_t entry, float light, const PhotonHit& h) {
+    heldMoments_.push_back({entry, momentUnits(light, h)});
+  }
+
+  /// The whole in units is what the filter `nearest` adds to one map; the highest 16 bits of the words split it. The first
+  /// part counts the photon, for all.
+  void holdShares(const TexelMap::Side& side, const DirectionShares& shares, std::uint64_t texel, const Rgb& value,
+                  const PhotonHit& h) {
+    const std::array<std::int64_t, 3> whole = unitsOf(value, h);
+    const auto light = splitChannels(shares, whole, h);
+    holdUnits(side.firstLight + shares.rank[0] * side.texelCount + texel, side.firstTexel + texel, whole, value, h);
+    held_.back().units = partOf(light, 0);
+    for (std::size_t k = 1; k < 3; ++k)
+      if (shares.upTo[k] > shares.upTo[k - 1])
+        held_.push_back({side.firstLight + shares.rank[k] * side.texelCount + texel, partOf(light, k), kTaken, 0, 0});
+    if constexpr (moments) {
+      const auto moment = splitChannels(shares, momentUnits(luminance(value), h), h);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (k == 0 || shares.upTo[k] > shares.upTo[k - 1])
+          heldMoments_.push_back({side.firstMoment + shares.rank[k] * side.texelCount + texel, partOf(moment, k)});
+    }
+  }
+  /// [channel][share].
+  using Parts = std::array<std::array<std::int64_t, 3>, 3>;
+  static Parts splitChannels(const DirectionShares& shares, const std::array<std::int64_t, 3>& units,
+                             const PhotonHit& h) {
+    return {shares.split(units[0], h.words[0] >> 16), shares.split(units[1], h.words[1] >> 16),
+            shares.split(units[2], h.words[2] >> 16)};
+  }
+  static std::array<std::int64_t, 3> partOf(const Parts& parts, std::size_t k) {
+    return {parts[0][k], parts[1][k], parts[2][k]};
   }
 
   /// One photon may come back to a texel; its share is squared as a whole.

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/float_mode.h"
+#include "dlm/direction_shares.h"
 
 namespace lucarne {
 namespace {
@@ -27,12 +28,13 @@ std::vector<TexelTile> tilesOf(const TexelLayout& layout, const TallyLayout& tal
   return tiles;
 }
 
-/// Eight bits at a time for rounding, from numbers of a sample that nothing else uses.
+/// Eight bits at a time for rounding, or other sixteen of the same number, from numbers of a sample that nothing else uses.
 class RoundingBits {
  public:
   RoundingBits(const std::array<std::uint32_t, 4>& words, std::uint64_t number)
       : key_(mix64(number) ^ (std::uint64_t{words[3]} << 32)) {}
   std::uint32_t next() { return static_cast<std::uint32_t>(mix64(key_ += 0x9e3779b97f4a7c15u) >> 56); }
+  std::uint32_t nextWide() { return static_cast<std::uint32_t>(mix64(key_ += 0x9e3779b97f4a7c15u) & 0xffffu); }
 
  private:
   std::uint64_t key_;
@@ -102,20 +104,43 @@ class DirectGather::Texel {
       value *= kLargestDirectValue / most;
       ++counts.clamped;
     }
+    const std::array<std::int64_t, 3> light{roundUnits(value.x, bits.next()), roundUnits(value.y, bits.next()),
+                                            roundUnits(value.z, bits.next())};
+    if (gather_.in_.directions.triangles() != nullptr && !members_.members.empty()) {
+      addShares(piece.wi, light, luminance(value), bits, momentBits);
+      return luminance(value);
+    }
     const std::size_t rank = members_.members.empty()
                                  ? 0
                                  : members_.rank[static_cast<std::size_t>(gather_.in_.directions.nearest(piece.wi))];
-    std::int64_t* at = light_ + rank * side_.texelCount() * kLightChannels;
-    at[0] += roundUnits(value.x, bits.next());
-    at[1] += roundUnits(value.y, bits.next());
-    at[2] += roundUnits(value.z, bits.next());
-    if (moments_ != nullptr) addMoment(rank, momentOf(luminance(value), piece.wi), momentBits);
+    addTo(light_, rank, kLightChannels, light);
+    if (moments_ != nullptr) addTo(moments_, rank, kMomentChannels, momentUnits(luminance(value), piece.wi, momentBits));
     return luminance(value);
   }
 
-  void addMoment(std::size_t rank, Vec3f moment, RoundingBits& bits) const {
-    std::int64_t* at = moments_ + rank * side_.texelCount() * kMomentChannels;
-    for (int c = 0; c < 3; ++c) at[c] += roundUnits(moment[c], bits.next());
+  void addTo(std::int64_t* tally, std::size_t rank, std::uint64_t channels,
+             const std::array<std::int64_t, 3>& units) const {
+    std::int64_t* at = tally + rank * side_.texelCount() * channels;
+    for (std::size_t c = 0; c < 3; ++c) at[c] += units[c];
+  }
+
+  static std::array<std::int64_t, 3> momentUnits(float light, Vec3f wi, RoundingBits& bits) {
+    const Vec3f m = momentOf(light, wi);
+    return {roundUnits(m.x, bits.next()), roundUnits(m.y, bits.next()), roundUnits(m.z, bits.next())};
+  }
+
+  /// Among the directions. `bits` is a copy: what is rounded later has the numbers that it has without.
+  void addShares(Vec3f wi, const std::array<std::int64_t, 3>& light, float luminance, RoundingBits bits,
+                 RoundingBits& momentBits) const {
+    const DirectionShares shares = directionShares(gather_.in_.directions, members_, wi);
+    const auto add = [&](std::int64_t* tally, std::uint64_t channels, const std::array<std::int64_t, 3>& units) {
+      std::array<std::array<std::int64_t, 3>, 3> parts;  // [channel][share]
+      for (std::size_t c = 0; c < 3; ++c) parts[c] = shares.split(units[c], bits.nextWide());
+      for (std::size_t k = 0; k < 3; ++k)
+        addTo(tally, shares.rank[k], channels, {parts[0][k], parts[1][k], parts[2][k]});
+    };
+    add(light_, kLightChannels, light);
+    if (moments_ != nullptr) add(moments_, kMomentChannels, momentUnits(luminance, wi, momentBits));
   }
 
   const DirectGather& gather_;

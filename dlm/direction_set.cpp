@@ -28,13 +28,14 @@ ClippedCell finish(const SphericalIntegral& sum, Vec3d n) {
 
 }  // namespace
 
-DirectionSet::DirectionSet(int count) {
+DirectionSet::DirectionSet(int count, DirectionFilter filter) {
   LUCARNE_CHECK_LE(1, count);
   LUCARNE_CHECK_LE(count, 65535);
   directions_ = spreadDirections(count);
   for (const Vec3d& d : directions_) directionsF_.push_back(Vec3f(d));
   buildCells();
   buildLookup();
+  if (filter == DirectionFilter::linear && count >= 4) shared_ = std::make_shared<const Shared>(directions_);
 }
 
 void DirectionSet::buildCells() {
@@ -72,9 +73,18 @@ SphericalIntegral DirectionSet::above(int psi, Vec3d n) const {
   return sum;
 }
 
-ClippedCell DirectionSet::clippedCell(int psi, Vec3d n) const { return finish(above(psi, n), n); }
+TentIntegral DirectionSet::tentAbove(int psi, Vec3d n, Members members) const {
+  return shared_->tents.above(psi, n, [&](int other) { return members == Members::all || reaches(other, n); });
+}
 
-Vec3d DirectionSet::cosineMoment(int psi, Vec3d n) const {
+ClippedCell DirectionSet::clippedCell(int psi, Vec3d n, Members members) const {
+  if (!shared_) return finish(above(psi, n), n);
+  const TentIntegral tent = tentAbove(psi, n, members);
+  return finish({tent.solidAngle, tent.moment}, n);
+}
+
+Vec3d DirectionSet::cosineMoment(int psi, Vec3d n, Members members) const {
+  if (shared_) return tentAbove(psi, n, members).secondAlong(n);
   const std::size_t i = static_cast<std::size_t>(psi);
   Vec3d sum{};
   for (std::uint32_t k = firstPiece_[i]; k < firstPiece_[i + 1]; ++k) {

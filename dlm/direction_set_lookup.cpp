@@ -15,14 +15,6 @@ constexpr double kMargin = 1e-5;
 
 constexpr int kSmallestGrid = 64, kLargestGrid = 1024, kGridCellsPerDirection = 16;
 
-// The unit vector at a point of the square [-1, 1]²; the inner diamond is the upper half (z >= 0), the corners fold
-// down.
-Vec3d octahedronPoint(double px, double py) {
-  const double z = 1 - std::abs(px) - std::abs(py);
-  if (z >= 0) return normalize(Vec3d{px, py, z});
-  return normalize(Vec3d{std::copysign(1 - std::abs(py), px), std::copysign(1 - std::abs(px), py), z});
-}
-
 using Corners = std::array<Vec3d, 4>;
 
 // `size` is even, so that the axes and the fold run along cell edges and diagonals.

@@ -34,7 +34,7 @@ void readMap(const DecodedPage& page, const PlacedMap& map, const DirectionalFil
 
 void readMeans(const DirectionalFile& file, LightMaps& maps) {
   const std::vector<Vec3d> psis = spreadDirections(maps.directionCount);
-  const float reach = meanReach(maps.directionCount);
+  const float reach = meanReach(maps.directionCount, maps.directionFilter);
   const auto readMap = [&](const DecodedPage& page, const PlacedMap& map) {
     const Vec3f psi(psis[map.psi]);
     Vec3f* to = &maps.meanDirections[map.first];

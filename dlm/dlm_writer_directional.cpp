@@ -116,7 +116,7 @@ std::vector<ExrLayer> meanLayers(const LightMaps& maps, const DirectionalPages& 
     layers.push_back(std::move(page));
   }
   const std::vector<Vec3d> psis = spreadDirections(maps.directionCount);
-  const float reach = meanReach(maps.directionCount);
+  const float reach = meanReach(maps.directionCount, maps.directionFilter);
   forStoredMaps(maps, pages, [&](const SideMaps& side, const SideDirection& d, std::int64_t place, std::size_t layer) {
     const Vec3f* const texels = maps.meanDirections.data() + d.first;
     std::vector<std::uint32_t>& codes = layers[layer].channels[0].uints;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "dlm/direction_filter.h"
 #include "dlm/direction_set.h"
 
 namespace lucarne {
@@ -43,7 +44,8 @@ struct MapChart {
 };
 
 struct LightMaps {
-  int directionCount = 1;      // |Ω|; DirectionSet(directionCount) rebuilds the set
+  int directionCount = 1;      // |Ω|; DirectionSet(directionCount, directionFilter) rebuilds the set
+  DirectionFilter directionFilter = DirectionFilter::nearest;
   std::vector<MapChart> charts;
   std::vector<SideMaps> sides;
   int atlasWidth = 0, atlasHeight = 0;  // uv1 = (atlasX + s, atlasY + t) / (atlasWidth, atlasHeight), st texel coordinates

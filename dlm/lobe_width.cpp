@@ -7,10 +7,24 @@
 
 namespace lucarne {
 
-float cellSharpness(int directionCount) { return 1.2f * static_cast<float>(directionCount); }
+namespace {
 
-float lobeSharpness(float alpha, int directionCount) {
-  const float lobe = coatSharpness(alpha), cell = cellSharpness(directionCount);
+/// λ_cell over what takes its place where light is shared.
+constexpr float kTentShare = 0.2f;
+
+}  // namespace
+
+float cellSharpness(int directionCount, DirectionFilter filter) {
+  const float cell = 1.2f * static_cast<float>(directionCount);
+  return filter == DirectionFilter::linear && directionCount >= 4 ? cell / kTentShare : cell;
+}
+
+float lightSharpness(const LightMaps& maps) {
+  return cellSharpness(maps.directionCount, maps.hasMeans() ? DirectionFilter::nearest : maps.directionFilter);
+}
+
+float lobeSharpness(float alpha, int directionCount, DirectionFilter filter) {
+  const float lobe = coatSharpness(alpha), cell = cellSharpness(directionCount, filter);
   return lobe * cell / (lobe + cell);
 }
 

@@ -23,10 +23,23 @@ namespace lucarne {
 // worst 11 % (n = 1000, |Ω| ≤ 32). One λ_cell serves all cells, also those that the horizon cuts: a sliver must not
 // have a say of its own.
 
-/// λ_cell of |Ω| directions.
-float cellSharpness(int directionCount);
+//
+// Where light is shared among three ψ (direction_filter.h) that sharing blurs by itself: light from ω is shown with
+// Σ λ_k(ω) w(ψ_k), the lobe interpolated among ψ. Light counted by cells is shown with the w of a mean direction wherever
+// in the cell it came from, which blurs by the cell's variance V = 1/λ_cell once more, in all 1/λ_lobe + 2V. The variance of a
+// tent is 9/5 of that of a cell (a²/4 and 5a²/36 for a triangular grid with edges a), so that lobes of
+//
+//   1/λ = 1/λ_lobe + V/5
+//
+// are blurred as much in all, and there is no step at a cell's edge any more. With less, single tents show one by one; with
+// more, broad lobes, which need none, are blurred for nothing.
+
+/// λ_cell of |Ω| directions; of shared light the λ that takes its place, 5 times as sharp.
+float cellSharpness(int directionCount, DirectionFilter filter = DirectionFilter::nearest);
+/// Of light maps as they are shown.
+float lightSharpness(const LightMaps& maps);
 /// λ for GGX α and |Ω|.
-float lobeSharpness(float alpha, int directionCount);
+float lobeSharpness(float alpha, int directionCount, DirectionFilter filter = DirectionFilter::nearest);
 /// λ_lobe.
 float coatSharpness(float alpha);
 

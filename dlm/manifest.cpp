@@ -17,10 +17,12 @@ json triple(Vec3d v) { return {v.x, v.y, v.z}; }
 // −1 for none, so that a reader in any language takes it for what it is.
 json indexOrNone(std::uint32_t index) { return index == kNone ? json(-1) : json(index); }
 
-json describeDirections(int count) {
+json describeDirections(int count, DirectionFilter filter) {
   json list = json::array();
   for (const Vec3d& d : spreadDirections(count)) list.push_back(triple(d));
-  return {{"count", count}, {"list", std::move(list)}};
+  json result = {{"count", count}, {"list", std::move(list)}};
+  if (filter != DirectionFilter::nearest) result["filter"] = nameOf(filter);
+  return result;
 }
 
 // One array a property: a hundred thousand charts are parsed in a fraction of the time that as many objects take.
@@ -64,7 +66,7 @@ json describeSides(const std::vector<SideMaps>& sides, const std::vector<std::in
           {"place", places}};
 }
 
-json describeDirectional(const DirectionalPages& pages, int directionCount) {
+json describeDirectional(const DirectionalPages& pages, const LightMaps& maps) {
   if (pages.layers.empty()) return nullptr;
   json result = {{"file", dlm_file::kDirectional},
                  {"size", {pages.width, pages.height}},
@@ -73,7 +75,7 @@ json describeDirectional(const DirectionalPages& pages, int directionCount) {
                  {"layers", pages.layers}};
   if (pages.format == MapFormat::ldr8) result["map_scales"] = pages.mapScales;
   if (pages.means)
-    result["means"] = {{"file", dlm_file::kMoments}, {"reach", static_cast<double>(meanReach(directionCount))}};
+    result["means"] = {{"file", dlm_file::kMoments}, {"reach", static_cast<double>(meanReach(maps.directionCount, maps.directionFilter))}};
   return result;
 }
 
@@ -87,14 +89,14 @@ nlohmann::json describeMaps(const LightMaps& maps, const LocalFrame& frame, cons
   return {{"format", dlm_file::kFormat},
           {"version", dlm_file::kVersion},
           {"frame", {{"origin", triple(frame.origin)}, {"scale", frame.scale}}},
-          {"directions", describeDirections(maps.directionCount)},
+          {"directions", describeDirections(maps.directionCount, maps.directionFilter)},
           {"charts", describeCharts(maps.charts)},
           {"sides", describeSides(maps.sides, pages.directional.places)},
           {"irradiance",
            {{"file", dlm_file::kIrradiance},
             {"size", {maps.atlasWidth, maps.atlasHeight}},
             {"layers", pages.irradianceLayers}}},
-          {"directional", describeDirectional(pages.directional, maps.directionCount)}};
+          {"directional", describeDirectional(pages.directional, maps)}};
 }
 
 }  // namespace lucarne

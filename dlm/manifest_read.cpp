@@ -109,6 +109,15 @@ int readDirections(const Json& manifest, const Place& file) {
   return static_cast<int>(count);
 }
 
+/// Manifests of before there was a choice name none.
+DirectionFilter filterOf(const Json& manifest, const Place& file) {
+  const Place place = file.in("directions");
+  const std::string name = textOf(section(manifest, "directions", file), "filter", "nearest", place);
+  for (const DirectionFilter filter : {DirectionFilter::nearest, DirectionFilter::linear})
+    if (name == nameOf(filter)) return filter;
+  place.in("filter").fail("is one that this program does not know");
+}
+
 void readCharts(const Json& manifest, const Place& file, LightMaps& maps) {
   const Place place = file.in("charts");
   const Json& charts = section(manifest, "charts", file);
@@ -222,12 +231,13 @@ std::vector<float> mapScales(const Json& directional, const Place& place) {
 }
 
 /// Manifests of before there were mean directions, or of maps without, have none.
-bool readMeans(const Json& directional, int directionCount, const Place& place) {
+bool readMeans(const Json& directional, const LightMaps& maps, const Place& place) {
   const Json* means = findMember(directional, "means");
   if (means == nullptr || means->is_null()) return false;
   const Place here = place.in("means");
   if (!means->is_object()) here.fail("is not an object");
-  const double reach = numberOf(*means, "reach", 0, here), expected = static_cast<double>(meanReach(directionCount));
+  const double reach = numberOf(*means, "reach", 0, here),
+               expected = static_cast<double>(meanReach(maps.directionCount, maps.directionFilter));
   if (!(std::abs(reach - expected) <= 1e-6 * expected)) here.in("reach").fail("is not " + std::to_string(expected));
   return true;
 }
@@ -252,7 +262,7 @@ void readPages(const Json& manifest, const Place& file, ManifestContents& conten
   pages.scale = numberOf(directional, "scale", 1, place);
   pages.format = formatOf(directional, place);
   if (pages.format == MapFormat::ldr8) pages.mapScales = mapScales(directional, place);
-  pages.means = readMeans(directional, contents.maps.directionCount, place);
+  pages.means = readMeans(directional, contents.maps, place);
   int exponent = 0;
   if (!(pages.scale > 0) || std::frexp(pages.scale, &exponent) != 0.5) place.in("scale").fail("is not a power of two");
   if (static_cast<std::uint64_t>(pageSize[0] * pageSize[1]) >
@@ -296,6 +306,7 @@ ManifestContents readManifestMaps(const nlohmann::json& manifest, const std::str
   checkFormat(manifest, file);
   ManifestContents contents;
   contents.maps.directionCount = readDirections(manifest, file);
+  contents.maps.directionFilter = filterOf(manifest, file);
   readPages(manifest, file, contents);
   readCharts(manifest, file, contents.maps);
   checkAtlas(file, contents.maps);

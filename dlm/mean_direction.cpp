@@ -16,7 +16,10 @@ float unpackComponent(std::uint32_t code) { return static_cast<float>(code & 0x3
 
 }  // namespace
 
-float meanReach(int directionCount) { return std::min(2.f, 3 / std::sqrt(static_cast<float>(directionCount))); }
+float meanReach(int directionCount, DirectionFilter filter) {
+  const float cells = filter == DirectionFilter::linear ? 5.5f : 3.f;
+  return std::min(2.f, cells / std::sqrt(static_cast<float>(directionCount)));
+}
 
 std::uint32_t packMean(Vec3f mean, Vec3f psi, float reach) {
   const Vec3f v = (mean - psi) / reach;

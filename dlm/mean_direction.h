@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "base/vec.h"
+#include "dlm/direction_filter.h"
 
 namespace lucarne {
 
@@ -17,8 +18,9 @@ namespace lucarne {
 inline constexpr std::uint64_t kMeanBytes = 4;
 
 /// No component of m − ψ is larger, for a set of |Ω| directions: 3/√|Ω|, at most 2. The corners of the cells are at
-/// most 2.9/√|Ω| from their ψ.
-float meanReach(int directionCount);
+/// most 2.9/√|Ω| from their ψ. Where light is shared among three ψ (`linear`) 5.5/√|Ω|: ψ that share are at most that far
+/// apart.
+float meanReach(int directionCount, DirectionFilter filter = DirectionFilter::nearest);
 
 /// (m − ψ)/reach in three unsigned numbers of 10 bits, −1 … 1 as 0 … 1023, x lowest; the top two bits are 0. What
 /// GL_UNSIGNED_INT_2_10_10_10_REV is to GL_RGB10_A2. Beyond ±1 it is cut.

@@ -43,7 +43,7 @@ nlohmann::json triple(Vec3d v) { return {v.x, v.y, v.z}; }
 }  // namespace
 
 Prober::Prober(const Scene& scene, const LightMaps& maps)
-    : maps_(maps), directions_(maps.directionCount), surface_(scene, maps) {}
+    : maps_(maps), directions_(maps.directionCount, maps.directionFilter), surface_(scene, maps) {}
 
 ProbeAnswer Prober::probe(Vec3d position, Vec3d normal, ProbeDetail detail) const {
   if (!isFinite(position) || !isFinite(normal)) throw InputError("a point or normal has a number that is not finite");

@@ -45,7 +45,7 @@ struct KernelBias {
   }
 };
 
-/// Everything of LightMaps but the place in the atlas. To `bias`, if any, that of adaptive kernels is added.
+/// Everything of LightMaps but the filter of directions and the place in the atlas. To `bias`, if any, that of adaptive kernels is added.
 LightMaps resolve(const ResolveInput& input, const KernelOptions& kernel, KernelBias* bias = nullptr);
 
 /// Flux-weighted estimated relative error of the irradiance: Σ area·σ / Σ area·E over all lit texels.

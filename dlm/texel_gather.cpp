@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/float_mode.h"
+#include "dlm/direction_shares.h"
 #include "dlm/texel_surface.h"
 #include "tracer/optics/cumulative.h"
 
@@ -72,6 +73,14 @@ class Moments {
   double sum_ = 0, squares_ = 0;
 };
 
+void addShares(const DirectionShares& shares, double light, std::vector<double>& byRank) {
+  std::uint32_t before = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    byRank[shares.rank[k]] += light * (shares.upTo[k] - before) / DirectionWeights::kWhole;
+    before = shares.upTo[k];
+  }
+}
+
 }  // namespace
 
 TexelGatherResult gatherTexel(const GatherScene& in, std::uint32_t sideIndex, int x, int y,
@@ -104,10 +113,11 @@ TexelGatherResult gatherTexel(const GatherScene& in, std::uint32_t sideIndex, in
       const ReceivedLight::Piece& piece = light.pieces[k];
       if (part != LightPart::all && (part == LightPart::direct) != piece.direct) continue;
       const Rgbd lux = Rgbd(piece.lux) * there;
-      const std::size_t rank =
-          members.members.empty() ? 0 : members.rank[static_cast<std::size_t>(in.directions.nearest(piece.wi))];
       result.irradiance += lux;
-      shares[rank] += luminance(lux);
+      if (members.members.empty())
+        shares[0] += luminance(lux);
+      else
+        addShares(directionShares(in.directions, members, piece.wi), luminance(lux), shares);
       sum += luminance(lux);
     }
     whole.add(sum);

@@ -14,18 +14,18 @@ int nodesFor(int directionCount) { return directionCount <= 256 ? 65 : direction
 
 }  // namespace
 
-LobeCell lobeCell(const DirectionSet& set, int psi, Vec3d n) {
-  const ClippedCell cell = set.clippedCell(psi, n);
+LobeCell lobeCell(const DirectionSet& set, int psi, Vec3d n, Members members) {
+  const ClippedCell cell = set.clippedCell(psi, n, members);
   const Vec3d direction = normalize(cell.moment);
   if (!(cell.cosIntegral > 0) || dot(direction, direction) == 0) return {Vec3f(set.direction(psi)), 0.f};
   return {Vec3f(direction), static_cast<float>(cell.cosIntegral)};
 }
 
-MeanCell meanCell(const DirectionSet& set, int psi, Vec3d n) {
+MeanCell meanCell(const DirectionSet& set, int psi, Vec3d n, Members members) {
   constexpr double kLeast = 1e-12;  // sr
-  const LobeCell cell = lobeCell(set, psi, n);
+  const LobeCell cell = lobeCell(set, psi, n, members);
   if (!(static_cast<double>(cell.cosIntegral) > kLeast)) return cell;
-  return {Vec3f(set.cosineMoment(psi, n) / static_cast<double>(cell.cosIntegral)), cell.cosIntegral};
+  return {Vec3f(set.cosineMoment(psi, n, members) / static_cast<double>(cell.cosIntegral)), cell.cosIntegral};
 }
 
 Vec3d octahedralNormal(Vec2d p) {
@@ -58,7 +58,7 @@ void CellTable::fillNode(const DirectionSet& set, CellKind kind, int x, int y) {
   const double step = 2.0 / (nodes_ - 1);
   const Vec3d n = octahedralNormal({x * step - 1, y * step - 1});
   for (int psi = 0; psi < set.count(); ++psi) {
-    const LobeCell cell = kind == CellKind::mean ? meanCell(set, psi, n) : lobeCell(set, psi, n);
+    const LobeCell cell = kind == CellKind::mean ? meanCell(set, psi, n, Members::all) : lobeCell(set, psi, n, Members::all);
     texels_[texelIndex(psi, x, y)] = {cell.direction.x, cell.direction.y, cell.direction.z, cell.cosIntegral};
   }
 }

@@ -9,10 +9,10 @@
 
 namespace lucarne {
 
-/// The cell of ψ clipped by the horizon of unit normal `n`. Nothing left: ψ itself with C = 0.
-LobeCell lobeCell(const DirectionSet& set, int psi, Vec3d n);
+/// The cell, or tent, of ψ clipped by the horizon of unit normal `n`. Nothing left: ψ itself with C = 0.
+LobeCell lobeCell(const DirectionSet& set, int psi, Vec3d n, Members members = Members::reaching);
 /// The same with the mean direction of constant light in place of the unit direction: m̄ of lobe.h. Nothing left: ψ.
-MeanCell meanCell(const DirectionSet& set, int psi, Vec3d n);
+MeanCell meanCell(const DirectionSet& set, int psi, Vec3d n, Members members = Members::reaching);
 
 enum class CellKind { direction, mean };
 
@@ -23,7 +23,8 @@ struct LobeTexel {
 
 /// lobeCell(), or meanCell(), over an octahedral grid of normals, one square a ψ; nodes at texel centres, first and last on the edges
 /// of the octahedral square, an odd count so that the six axes are nodes. With more ψ than layers the squares go on to
-/// the right: ψ lies in layer ψ mod layers, tile ψ / layers.
+/// the right: ψ lies in layer ψ mod layers, tile ψ / layers. Tents are taken with all ψ for members: a chart of many
+/// normals has more than those above one of its horizons.
 class CellTable {
  public:
   CellTable(const DirectionSet& set, int maxLayers, CellKind kind = CellKind::direction);

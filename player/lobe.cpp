@@ -62,7 +62,7 @@ Rgb mirroredRadiance(const LobeView& view, float alpha, std::span<const LobeCell
                      Rgb E) {
   LUCARNE_CHECK_EQ(cells.size(), values.size());
   if (view.lobe != LobeKind::cell && !cells.empty()) return unnormalised(view, alpha, cells, values);
-  const float sharpness = lobeSharpness(alpha, view.directionCount);
+  const float sharpness = lobeSharpness(alpha, view.directionCount, view.filter);
   const Vec3f r = mirrorDirection(view.normal, view.toEye);
   Rgb light{};
   float constant = 0;

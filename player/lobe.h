@@ -75,6 +75,7 @@ struct LobeView {
   Vec3f normal, toEye;
   int directionCount = 1;  // |Ω|
   LobeKind lobe = LobeKind::cell;
+  DirectionFilter filter = DirectionFilter::nearest;  // of the light maps
 };
 
 /// (Σ B w) / (Σ C w), or Σ B D/(n·d), cd/m²; E/π where `cells` is empty. `values`: B of the cells, lx, in the same

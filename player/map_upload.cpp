@@ -89,7 +89,7 @@ GlTexture uploadDirectional(const LightMaps& maps, const MapTables& tables, Ligh
 }
 
 GlTexture uploadMeans(const LightMaps& maps, const MapTables& tables, const DirectionSet& set) {
-  const float reach = meanReach(maps.directionCount);
+  const float reach = meanReach(maps.directionCount, maps.directionFilter);
   const PixelCoding coding{GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, kMeanBytes};
   return uploadPages(maps, tables, coding, [&](const Rectangle& r, std::uint64_t first, std::byte* to) {
     const Vec3f psi(set.direction(r.psi));
@@ -177,7 +177,7 @@ TextureLimits textureLimits() {
 
 GpuMaps uploadMaps(const MapSource& source, LightMapFormat format) {
   const LightMaps& maps = source.maps;
-  const DirectionSet set(maps.directionCount);
+  const DirectionSet set(maps.directionCount, maps.directionFilter);
   const TextureLimits limits = textureLimits();
   const MapTables tables =
       layOutMaps(maps, set, limits, source.directional != nullptr ? source.directional->texels() : maps.directional.size());
@@ -195,7 +195,7 @@ GpuMaps uploadMaps(const MapSource& source, LightMapFormat format) {
   gpu.irradiance = uploadIrradiance(maps, tables.irradiance);
   gpu.statistics = uploadStatistics(maps, tables.irradiance);
   gpu.hasMeans = maps.hasMeans();
-  gpu.meanReach = meanReach(maps.directionCount);
+  gpu.meanReach = meanReach(maps.directionCount, maps.directionFilter);
   gpu.means =
       gpu.hasMeans ? uploadMeans(maps, tables, set) : makeTexture({GL_TEXTURE_2D_ARRAY, GL_RGB10_A2, 1, 1, 1, 1});
   gpu.lightMapBytes = tables.directional.texels() * (bytesPerTexel(format) + (gpu.hasMeans ? kMeanBytes : 0));
@@ -211,7 +211,7 @@ GpuMaps uploadMaps(const MapSource& source, LightMapFormat format) {
   gpu.memberBits = storageBuffer(tables.memberBits);
   gpu.layersPerStrip = tables.layersPerStrip;
   gpu.wordsPerSide = tables.wordsPerSide;
-  gpu.cellSharpness = cellSharpness(maps.directionCount);
+  gpu.cellSharpness = lightSharpness(maps);
   return gpu;
 }
 

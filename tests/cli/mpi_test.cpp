@@ -65,6 +65,13 @@ INSTANTIATE_TEST_SUITE_P(RanksAndThreads, MpiTeams,
                                   "Threads";
                          });
 
+TEST_F(Mpi, SharedHitsAreThoseOfOneProcess) {
+  const std::string options = "--direction-filter linear --moments --threads 1";
+  ASSERT_EQ(shell(bake("whole.dlm", "200k") + options).code, 0);
+  ASSERT_EQ(shell(mpirun() + "-n 3 " + bake("team.dlm", "200k") + options).code, 0);
+  EXPECT_TRUE(same("team.dlm", "whole.dlm"));
+}
+
 TEST_F(Mpi, PartsOfTeamsOfAnySizeMergeToTheBakeOfOne) {
   ASSERT_EQ(shell(bake("whole.dlm", "200k")).code, 0);
   std::mt19937 random(3);
