@@ -13,7 +13,8 @@
 // With maps M1, M2 of the two bakes and truths T1, T2, all four independent, (M1 − T1)(M1 − T2) is on average the squared
 // error of a map and (M1 − T1)(M2 − T2) that part of it which is bias: the noise of the truths drops out. Two sums are
 // taken over all texels and ψ of flat sides: of B itself, and of the radiance B/C that reflections show, each ψ by its
-// C = ∫cos over its cell. Both are over the same sum of T1·T2, in per cent of the root.
+// C = ∫cos over its cell. Both are over the same sum of T1·T2, in per cent of the root. Texels are those of maps that got
+// light: others are not stored.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <numeric>
@@ -120,6 +121,7 @@ struct FineMap {
   std::array<Grid, 2> bakes, truths;
   const Grid& area;
   double meanCosine, cosIntegral;
+  bool lit() const { return std::any_of(bakes[0].begin(), bakes[0].end(), [](double v) { return v > 0; }); }
 };
 
 Size coarseSize(const Way& way, const FineMap& map) {
@@ -130,7 +132,7 @@ Size coarseSize(const Way& way, const FineMap& map) {
 
 void addMap(const FineMap& map, Way& way) {
   const Size coarse = coarseSize(way, map);
-  way.texels += coarse.texels();
+  if (map.lit()) way.texels += coarse.texels();
   const Grid m1 = mapOf(map.bakes[0], map.area, map.size, coarse), m2 = mapOf(map.bakes[1], map.area, map.size, coarse);
   const double sx = static_cast<double>(coarse.width) / map.size.width, sy = static_cast<double>(coarse.height) / map.size.height;
   double error = 0, bias = 0, power = 0;
@@ -200,8 +202,24 @@ void addSides(const BakePlan& plan, const Bakes& bakes, std::vector<Way>& ways) 
   }
 }
 
+double percent(double squares, const Way::Sums& s) { return 100 * std::sqrt(std::max(0.0, squares) / s.power); }
+
+/// The error of projected resolution with so many texels, between the ways that have fewer and more.
+double projectedError(const std::vector<Way>& ways, std::uint64_t texels, Way::Sums Way::*sums) {
+  const Way* below = nullptr;
+  for (const Way& way : ways) {
+    if (!way.projected) continue;
+    if (below != nullptr && below->texels <= texels && texels < way.texels) {
+      const auto log = [](std::uint64_t n) { return std::log(static_cast<double>(n)); };
+      const double t = (log(texels) - log(below->texels)) / (log(way.texels) - log(below->texels));
+      return percent((below->*sums).error, below->*sums) * (1 - t) + percent((way.*sums).error, way.*sums) * t;
+    }
+    below = &way;
+  }
+  return 0;
+}
+
 void report(const std::vector<Way>& ways) {
-  const auto percent = [](double squares, const Way::Sums& s) { return 100 * std::sqrt(std::max(0.0, squares) / s.power); };
   std::printf("%-18s %9s | %8s %8s %8s | %10s %8s %8s\n", "way", "texels", "B: error", "noise", "bias", "B/C: error", "noise", "bias");
   for (const Way& w : ways) {
     std::printf("%-10s %7.3f %9llu", w.projected ? "projected" : "uniform", w.scale, static_cast<unsigned long long>(w.texels));
@@ -209,6 +227,10 @@ void report(const std::vector<Way>& ways) {
       std::printf(" | %7.2f%% %7.2f%% %7.2f%%", percent(s->error, *s), percent(s->error - s->bias, *s), percent(s->bias, *s));
     std::printf("\n");
   }
+  for (const Way& w : ways)
+    if (!w.projected)
+      std::printf("projected with the texels of uniform %.1f: error %.2f%%, of B/C %.2f%%\n", w.scale,
+                  projectedError(ways, w.texels, &Way::light), projectedError(ways, w.texels, &Way::radiance));
   std::fflush(stdout);
 }
 
