@@ -77,6 +77,7 @@ nlohmann::json compareLightMaps(const CompareOptions& options) {
           {"samples_without_counterpart", difference.withoutCounterpart},
           {"surface_m2", difference.irradiance.weight()},
           {"directions", {{"a", a.maps.directionCount}, {"b", b.maps.directionCount}}},
+          {"direction_filters", {{"a", nameOf(a.maps.directionFilter)}, {"b", nameOf(b.maps.directionFilter)}}},
           {"irradiance", std::move(irradiance)},
           {"directional", directionalToJson(difference)},
           {"charts", chartsToJson(difference)}};

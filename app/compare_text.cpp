@@ -65,9 +65,14 @@ std::vector<Json> worstRows(const Json& rows, std::size_t count) {
 
 void directionalLines(std::string& text, const Json& d) {
   if (d["directional"].is_null()) {
-    const bool same = d["directions"]["a"] == d["directions"]["b"];
+    const bool sameSet = d["directions"]["a"] == d["directions"]["b"];
+    const Json& filters = d["direction_filters"];
     line(text, "directions",
-         same ? "no surface of both has maps by direction"
+         sameSet && filters["a"] != filters["b"]
+             ? filters["a"].get<std::string>() + " and " + filters["b"].get<std::string>() +
+                   ": of different filters only the irradiance is compared"
+         : sameSet
+             ? "no surface of both has maps by direction"
               : d["directions"]["a"].dump() + " and " + d["directions"]["b"].dump() +
                     ": of different sets only the irradiance is compared");
     return;

@@ -44,10 +44,15 @@ TEST_F(DirectionFilters, GoingOnGivesTheBitsOfOneBake) {
 }
 
 TEST_F(DirectionFilters, ThatIsTheDefaultHasTheHashesOfABakeThatNamesNone) {
-  mustRun(bake("--photons 9k -o a.part"));
-  mustRun(bake("--photons 9k -o b.part --direction-filter nearest"));
-  EXPECT_TRUE(same("a.part", "b.part"));
-  mustRun(bake("--photons 9k -o a.dlm"));
+  mustRun(bake("--photons 9k -o a.dlm --report a.json"));
+  mustRun(bake("--photons 9k -o b.dlm --report b.json --direction-filter nearest"));
+  mustRun(linear("--photons 9k -o c.dlm --report c.json"));
+  const auto hashes = [&](const char* report) {
+    const auto told = nlohmann::json::parse(test::slurp(folder_ / report));
+    return told["settings_hash"].get<std::string>() + told["content_hash"].get<std::string>();
+  };
+  EXPECT_EQ(hashes("a.json"), hashes("b.json"));
+  EXPECT_NE(hashes("a.json"), hashes("c.json"));
   EXPECT_EQ(test::slurp(folder_ / "a.dlm/manifest.json").find("\"filter\""), std::string::npos);
 }
 
@@ -64,6 +69,13 @@ TEST_F(DirectionFilters, AreToldByReportInfoManifestAndPlan) {
   const auto refused = run("bake --plan plan.json --direction-filter nearest -o c.part --quiet");
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("--direction-filter contradicts plan.json"), std::string::npos) << refused.err;
+}
+
+TEST_F(DirectionFilters, LeaveTheIrradianceAsItIsAndAreNotComparedByDirection) {
+  mustRun(linear("--photons 9k -o a.dlm"));
+  mustRun(bake("--photons 9k -o b.dlm"));
+  EXPECT_TRUE(same("a.dlm/irradiance.exr", "b.dlm/irradiance.exr"));
+  EXPECT_NE(run("compare a.dlm b.dlm").out.find("linear and nearest: of different filters"), std::string::npos);
 }
 
 TEST_F(DirectionFilters, ThatNobodyKnowsAreRefused) {

@@ -204,7 +204,7 @@ void addSides(const BakePlan& plan, const Bakes& bakes, std::vector<Way>& ways) 
 
 double percent(double squares, const Way::Sums& s) { return 100 * std::sqrt(std::max(0.0, squares) / s.power); }
 
-/// The error of projected resolution with so many texels, between the ways that have fewer and more.
+/// The error of projected resolution with so many texels, between the ways that have fewer and more; 0: none has.
 double projectedError(const std::vector<Way>& ways, std::uint64_t texels, Way::Sums Way::*sums) {
   const Way* below = nullptr;
   for (const Way& way : ways) {
@@ -228,9 +228,9 @@ void report(const std::vector<Way>& ways) {
     std::printf("\n");
   }
   for (const Way& w : ways)
-    if (!w.projected)
-      std::printf("projected with the texels of uniform %.1f: error %.2f%%, of B/C %.2f%%\n", w.scale,
-                  projectedError(ways, w.texels, &Way::light), projectedError(ways, w.texels, &Way::radiance));
+    if (const double error = projectedError(ways, w.texels, &Way::light); !w.projected && error > 0)
+      std::printf("projected with the texels of uniform %.1f: error %.2f%%, of B/C %.2f%%\n", w.scale, error,
+                  projectedError(ways, w.texels, &Way::radiance));
   std::fflush(stdout);
 }
 
