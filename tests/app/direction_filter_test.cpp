@@ -4,7 +4,7 @@
 #include "dlm/direction_shares.h"
 #include "tests/app/bake_fixture.h"
 
-namespace lucarne {
+namespace lucarne::direction_filter_test {
 namespace {
 
 using test::BakedScene;
@@ -167,4 +167,4 @@ TEST(LinearFilter, ConstantLightFillsEveryTentByItsCosineIntegral) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direction_filter_test

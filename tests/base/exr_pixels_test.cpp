@@ -9,7 +9,7 @@
 #include "tests/base/expect_error.h"
 #include "tests/base/temp_folder.h"
 
-namespace lucarne::exr_layers_test {
+namespace lucarne::exr_pixels_test {
 namespace {
 
 /// Layers of different sizes and channels, so that memory that serves again is seen to.
@@ -137,4 +137,4 @@ TEST(ExrPixels, ACutFileIsAnErrorThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace lucarne::exr_layers_test
+}  // namespace lucarne::exr_pixels_test

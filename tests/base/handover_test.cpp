@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace lucarne {
+namespace lucarne::handover_test {
 namespace {
 
 TEST(Handover, AllWorkIsDoneByTheThreadThatServes) {
@@ -56,4 +56,4 @@ TEST(Handover, WhatTheMakerThrowsIsThrownOn) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::handover_test

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <thread>
 
-namespace lucarne {
+namespace lucarne::huge_heap_test {
 namespace {
 
 TEST(HugeHeap, LargeBlocksAreAsGoodAsOthersOnAnyThread) {
@@ -27,4 +27,4 @@ TEST(HugeHeap, LargeBlocksAreAsGoodAsOthersOnAnyThread) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::huge_heap_test

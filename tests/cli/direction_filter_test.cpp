@@ -1,7 +1,7 @@
 // --direction-filter through the program: pieces, states, plans, and what may not be put together.
 #include "tests/cli/program.h"
 
-namespace lucarne {
+namespace lucarne::direction_filter_test {
 namespace {
 
 using test::kQuickScene;
@@ -90,4 +90,4 @@ TEST_F(DirectionFilters, ThatNobodyKnowsAreRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direction_filter_test

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-namespace lucarne {
+namespace lucarne::direction_shares_test {
 namespace {
 
 TEST(DirectionShares, PartsSumToTheWholeAndAreRightOnAverage) {
@@ -79,4 +79,4 @@ TEST(DirectionShares, FewerThanFourDirectionsShareNothing) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direction_shares_test

@@ -7,7 +7,7 @@
 
 #include "dlm/direction_shares.h"
 
-namespace lucarne {
+namespace lucarne::direction_tents_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -86,4 +86,4 @@ TEST_P(Tents, AgreeWithHitsThatAreShared) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direction_tents_test

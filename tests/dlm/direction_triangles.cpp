@@ -10,7 +10,7 @@
 #include "dlm/mean_direction.h"
 #include "dlm/spherical_polygon.h"
 
-namespace lucarne {
+namespace lucarne::direction_triangles_test {
 namespace {
 
 Vec3d randomUnit(std::mt19937_64& rng) {
@@ -115,4 +115,4 @@ TEST_P(Triangulations, OfAnyLengthAndOfNone) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::direction_triangles_test

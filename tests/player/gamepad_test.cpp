@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace lucarne {
+namespace lucarne::gamepad_test {
 namespace {
 
 /// A pad at rest: sticks near the middle, triggers let go.
@@ -122,4 +122,4 @@ TEST(GamepadMapping, APressIsOneKeyHoweverLongItLasts) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::gamepad_test
