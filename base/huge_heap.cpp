@@ -29,12 +29,14 @@ HugeHeap::~HugeHeap() {
   mallopt(M_TRIM_THRESHOLD, 2 * kLargestInHeap);
 }
 
+void shareOneHeap() { mallopt(M_ARENA_MAX, 1); }
 void releaseFreedMemory() { malloc_trim(0); }
 
 #else
 
 HugeHeap::HugeHeap(std::size_t) {}
 HugeHeap::~HugeHeap() = default;
+void shareOneHeap() {}
 void releaseFreedMemory() {}
 
 #endif

@@ -16,6 +16,10 @@ class HugeHeap {
   HugeHeap& operator=(const HugeHeap&) = delete;
 };
 
+/// To be called before there is a second thread: all are to allocate from the one heap. Those with one of their own, as glibc
+/// gives them, get large blocks from elsewhere, and HugeHeap does not help them.
+void shareOneHeap();
+
 /// Gives memory that was freed back to the system, which the heap does not where something lies above it.
 void releaseFreedMemory();
 

@@ -128,13 +128,15 @@ class Session {
   void warmUp() {
     const Clock::time_point start = Clock::now();
     FrameRenderer& renderer = pending_->renderer;
+    if (warmedUp_ == renderer.warmUpSteps()) {
+      showPending();
+      return;
+    }
     while (warmedUp_ < renderer.warmUpSteps() && secondsBetween(start, Clock::now()) < kWarmUpSeconds) {
       renderer.warmUp(kind_, look().view, warmedUp_++);
       glFinish();
     }
-    if (warmedUp_ < renderer.warmUpSteps()) return;
-    target(window_.framebufferSize());  // its memory, too, is new
-    showPending();
+    if (warmedUp_ == renderer.warmUpSteps()) target(window_.framebufferSize());  // its memory, too, is new
   }
 
   void showPending() {
@@ -421,6 +423,7 @@ class Session {
 PlayReport play(const std::filesystem::path& dlm, const PlayOptions& options) {
   if (!options.benchmark.empty() && options.replay.empty())
     throw UsageError("--benchmark needs --replay F: the walk that is timed");
+  shareOneHeap();  // the loader's thread makes the textures
   // What cannot be is told before a window opens.
   readManifest(dlm);
   std::optional<WalkPath> path;

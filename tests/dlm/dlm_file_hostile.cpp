@@ -244,7 +244,10 @@ TEST_F(HostileDlm, NumbersThatAreNotFiniteAreRefused) {
   for (const float bad : {std::nanf(""), HUGE_VALF, -HUGE_VALF}) {
     for (const char* name : {"irradiance.exr", "directional.exr"}) {
       const std::vector<std::uint8_t> whole = readFile(path_ / name);
-      spoilLayers(name, [&](std::vector<ExrLayer>& layers) { layers.back().channels.back().floats.back() = bad; });
+      spoilLayers(name, [&](std::vector<ExrLayer>& layers) {
+        std::vector<float>& values = layers.back().channels.back().floats;
+        std::fill(values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4), values.end(), bad);
+      });
       expectRefused(name);
       writeFileAtomically(path_ / name, whole);
     }
