@@ -85,6 +85,17 @@ void handleLookMouse(LookSettings& look) {
   if (!ImGui::GetIO().WantCaptureMouse && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) look.inspectAt = underMouse();
 }
 
+namespace {
+
+/// A scrollbar, or a smaller picture, must not push the window over the right edge.
+void keepInSight() {
+  const ImVec2 at = ImGui::GetWindowPos();
+  const float over = at.x + ImGui::GetWindowWidth() - (ImGui::GetIO().DisplaySize.x - kEdge);
+  if (over > 0) ImGui::SetWindowPos({at.x - over, at.y});
+}
+
+}  // namespace
+
 void drawLookPanel(LookSettings& look, int directionCount, float height) {
   if (!look.panel) return;
   const ImGuiIO& io = ImGui::GetIO();
@@ -92,6 +103,9 @@ void drawLookPanel(LookSettings& look, int directionCount, float height) {
   constexpr float kLeast = 80;
   ImGui::SetNextWindowSizeConstraints({0, 0}, {io.DisplaySize.x, std::max(height, kLeast)});
   ImGui::Begin("look", &look.panel, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  keepInSight();
+  constexpr float kSliders = 150;  // narrow enough for numbers and controls side by side
+  ImGui::PushItemWidth(kSliders);
   if (ImGui::BeginCombo("view", nameOf(look.view.kind).data())) {
     for (const ViewName& v : kViewNames) {
       if (ImGui::Selectable(v.name.data(), v.view == look.view.kind)) look.view.kind = v.view;
@@ -112,6 +126,7 @@ void drawLookPanel(LookSettings& look, int directionCount, float height) {
   ImGui::Checkbox("smooth edges", &look.smoothEdges);
   ImGui::Checkbox("compare with the truth", &look.compare);
   if (ImGui::Button("save a picture")) look.screenshot = true;
+  ImGui::PopItemWidth();
   ImGui::End();
 }
 
