@@ -6,8 +6,8 @@
 
 namespace lucarne {
 
-/// nearest: in the cell of Ω that it falls into. linear: shared among the three ψ around it (direction_triangles.h), where
-/// all three are members of the side's set; else as nearest.
+/// nearest: in the cell of Ω that it falls into. linear: shared among the three ψ around it (direction_triangles.h),
+/// where all three are members of the side's set; else as nearest.
 enum class DirectionFilter : std::uint8_t { nearest, linear };
 
 /// As settings and files name them, in the order of the filters.

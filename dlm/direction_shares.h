@@ -14,8 +14,8 @@ struct DirectionShares {
   std::array<std::uint16_t, 3> rank{};
   std::array<std::uint32_t, 3> upTo{};
 
-  /// The part of each of a whole number of units ≥ 0. `bits`, 0 … 65535 evenly: each part is rounded with the probability
-  /// of its fraction, and the three sum to the whole exactly, the last getting what the others leave.
+  /// The part of each of a whole number of units ≥ 0. `bits`, 0 … 65535 evenly: each part is rounded with the
+  /// probability of its fraction, and the three sum to the whole exactly, the last getting what the others leave.
   std::array<std::int64_t, 3> split(std::int64_t units, std::uint32_t bits) const {
     std::array<std::int64_t, 3> parts;
     std::int64_t before = 0;

@@ -27,7 +27,8 @@ struct Tent {
   double at(Vec3d w) const { return dot(dual[corner], w) / dot(dual[0] + dual[1] + dual[2], w); }
 };
 
-// A flat triangle seen from the origin: dω = det/|p|³ of the barycentric coordinates, that is 2 areas of a unit triangle.
+// A flat triangle seen from the origin: dω = det/|p|³ of the barycentric coordinates, that is 2 areas of a unit
+// triangle.
 void addPoint(const Tent& tent, Vec3d p, double weight, TentIntegral& sum) {
   const double square = dot(p, p), l = std::sqrt(square), light = weight * tent.at(p) / (square * l);
   const Vec3d w = p / l;
@@ -117,8 +118,7 @@ TentIntegral DirectionTents::above(int psi, Vec3d n, const std::function<bool(in
 
 TentIntegral DirectionTents::cutTriangle(const DirectionTriangles::Triangle& t, std::size_t corner, Vec3d n,
                                          const std::function<bool(int)>& isMember) const {
-  SphericalPolygon piece =
-      clip(FlatTriangle{directions_[t.psi[0]], directions_[t.psi[1]], directions_[t.psi[2]]}, n);
+  SphericalPolygon piece = clip(FlatTriangle{directions_[t.psi[0]], directions_[t.psi[1]], directions_[t.psi[2]]}, n);
   std::array<bool, 3> member{};
   for (std::size_t k = 0; k < 3; ++k) member[k] = isMember(t.psi[k]);
   TentIntegral sum;

@@ -1,5 +1,5 @@
-// What evenly spread light leaves in each ψ where hits are shared among three ψ (direction_triangles.h): integrals of the
-// weights, the "tents" over the triangles that meet at ψ, above a horizon.
+// What evenly spread light leaves in each ψ where hits are shared among three ψ (direction_triangles.h): integrals of
+// the weights, the "tents" over the triangles that meet at ψ, above a horizon.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace lucarne {
 
 /// Integrals over the sphere, or the part of it above a horizon, of the weight λ of one ψ.
 struct TentIntegral {
-  double solidAngle = 0;             // ∫ λ dω, sr
-  Vec3d moment{};                    // ∫ λ ω dω
-  std::array<Vec3d, 3> second{};     // ∫ λ ω ωᵀ dω, by row
+  double solidAngle = 0;          // ∫ λ dω, sr
+  Vec3d moment{};                 // ∫ λ ω dω
+  std::array<Vec3d, 3> second{};  // ∫ λ ω ωᵀ dω, by row
   TentIntegral& operator+=(const TentIntegral& o);
   Vec3d secondAlong(Vec3d n) const { return {dot(second[0], n), dot(second[1], n), dot(second[2], n)}; }
 };

@@ -1,4 +1,5 @@
-// A grid over the sphere: the octahedron |x| + |y| + |z| = 1 laid out on the square [-1, 1]², cut into size × size cells.
+// A grid over the sphere: the octahedron |x| + |y| + |z| = 1 laid out on the square [-1, 1]², cut into size × size
+// cells.
 #pragma once
 
 #include <algorithm>

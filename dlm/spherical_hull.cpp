@@ -1,5 +1,5 @@
-// Incremental convex hull (Clarkson and Shor 1989, without the conflict graph): each point takes away the triangles that
-// it sees from outside, which hang together, and closes the hole with a fan.
+// Incremental convex hull (Clarkson and Shor 1989, without the conflict graph): each point takes away the triangles
+// that it sees from outside, which hang together, and closes the hole with a fan.
 #include "dlm/spherical_hull.h"
 
 #include <algorithm>
@@ -79,7 +79,8 @@ class Hull {
     for (const std::uint32_t p : v) used_[p] = true;
   }
 
-  // Points that follow each other in Ω are not neighbours, but a recent one is near: the newest triangles are asked first.
+  // Points that follow each other in Ω are not neighbours, but a recent one is near: the newest triangles are asked
+  // first.
   std::uint32_t seenFrom(std::uint32_t p) const {
     std::size_t f = faces_.size();
     while (f > 0 && !(alive_[f - 1] && sees(p, f - 1))) --f;

@@ -127,7 +127,8 @@ TEST(LinearFilter, ASunIsProbedInTheThreeDirectionsAroundItByTheirWeights) {
     }
     double cosines = 0;
     for (std::size_t k = 0; k < expected.size(); ++k) {
-      EXPECT_NEAR(answer.directions[k].irradiance.y, expected[k] * answer.irradiance.y, 1e-5 * answer.irradiance.y) << k;
+      EXPECT_NEAR(answer.directions[k].irradiance.y, expected[k] * answer.irradiance.y, 1e-5 * answer.irradiance.y)
+          << k;
       cosines += answer.directions[k].solidAngle * answer.directions[k].meanCosine;
     }
     EXPECT_NEAR(cosines, 3.14159265, 1e-4);  // what is told of the directions is of their tents

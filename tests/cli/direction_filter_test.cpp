@@ -8,7 +8,9 @@ using test::kQuickScene;
 
 class DirectionFilters : public test::ProgramTest {
  protected:
-  static std::string bake(const std::string& rest) { return std::string("bake") + kQuickScene + "--density 3 --quiet " + rest; }
+  static std::string bake(const std::string& rest) {
+    return std::string("bake") + kQuickScene + "--density 3 --quiet " + rest;
+  }
   static std::string linear(const std::string& rest) { return bake("--direction-filter linear " + rest); }
 };
 

@@ -10,8 +10,8 @@ namespace {
 
 TEST(DirectionShares, PartsSumToTheWholeAndAreRightOnAverage) {
   const DirectionShares shares{{0, 1, 2}, {12345, 54321, DirectionWeights::kWhole}};
-  for (const std::int64_t units : {std::int64_t{0}, std::int64_t{1}, std::int64_t{37}, std::int64_t{1} << 24,
-                                   (std::int64_t{1} << 56) + 12345}) {
+  for (const std::int64_t units :
+       {std::int64_t{0}, std::int64_t{1}, std::int64_t{37}, std::int64_t{1} << 24, (std::int64_t{1} << 56) + 12345}) {
     std::array<double, 3> mean{};
     for (std::uint32_t bits = 0; bits < DirectionWeights::kWhole; ++bits) {
       const auto parts = shares.split(units, bits);
@@ -37,7 +37,9 @@ MemberSet membersAbove(const DirectionSet& set) {
   for (int psi = 0; psi < set.count(); ++psi) {
     std::size_t best = 0;
     for (std::size_t k = 0; k < m.members.size(); ++k)
-      if (dot(set.direction(m.members[k]), set.direction(psi)) > dot(set.direction(m.members[best]), set.direction(psi))) best = k;
+      if (dot(set.direction(m.members[k]), set.direction(psi)) >
+          dot(set.direction(m.members[best]), set.direction(psi)))
+        best = k;
     m.rank.push_back(static_cast<std::uint16_t>(best));
   }
   return m;

@@ -13,7 +13,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 std::vector<Vec3d> normals() {
-  return {{0, 0, 1}, {0, -1, 0}, normalize(Vec3d{1, 1, 0}), normalize(Vec3d{-0.3, 0.9, 0.2}), normalize(Vec3d{0.1, -0.4, -0.8})};
+  return {{0, 0, 1},
+          {0, -1, 0},
+          normalize(Vec3d{1, 1, 0}),
+          normalize(Vec3d{-0.3, 0.9, 0.2}),
+          normalize(Vec3d{0.1, -0.4, -0.8})};
 }
 
 class Tents : public ::testing::TestWithParam<int> {

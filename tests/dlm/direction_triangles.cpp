@@ -61,7 +61,8 @@ TEST_P(Triangulations, NeighboursShareAnEdge) {
   for (const auto& t : all) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& o = all[t.across[k]].psi;
-      for (const std::size_t end : {(k + 1) % 3, (k + 2) % 3}) EXPECT_NE(std::find(o.begin(), o.end(), t.psi[end]), o.end());
+      for (const std::size_t end : {(k + 1) % 3, (k + 2) % 3})
+        EXPECT_NE(std::find(o.begin(), o.end(), t.psi[end]), o.end());
       EXPECT_EQ(std::find(o.begin(), o.end(), t.psi[k]), o.end());
     }
   }
@@ -108,7 +109,8 @@ TEST_P(Triangulations, WhatSharesIsWithinTheReachOfMeanDirections) {
 
 TEST_P(Triangulations, OfAnyLengthAndOfNone) {
   const Vec3f w(randomUnit(rng));
-  for (const float scale : {1e-20f, 1e-3f, 1e3f, 1e15f}) EXPECT_EQ(triangles.around(w * scale).psi, triangles.around(w).psi);
+  for (const float scale : {1e-20f, 1e-3f, 1e3f, 1e15f})
+    EXPECT_EQ(triangles.around(w * scale).psi, triangles.around(w).psi);
   constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
   for (const Vec3f& none : {Vec3f{}, Vec3f{kNan, 0, 1}, Vec3f{kInf, 0, 0}, Vec3f{kInf, -kInf, kNan}})
     EXPECT_EQ(triangles.around(none).weight[0], DirectionWeights::kWhole);

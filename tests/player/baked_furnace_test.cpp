@@ -51,17 +51,18 @@ Scene whiteFurnace(float exponent) {
   return scene;
 }
 
-Dlm bake(const Scene& scene, int directions, std::uint64_t photons) {
+Dlm bake(const Scene& scene, int directions, DirectionFilter filter, std::uint64_t photons) {
   BakeOptions o;
   o.kernel = {};
   o.photons = photons;
   o.texelsPerMetre = kDensity;
   o.directions = directions;
+  o.directionFilter = filter;
   const PhotonScene photonScene(scene);
   const BakePlan plan = makePlan(scene, o);
   const Baked baked = bakeScene(photonScene, plan, o, [](const RunProgress&) { return true; });
   const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / ("white_furnace" + std::to_string(directions) + ".dlm");
+      std::filesystem::path(testing::TempDir()) / ("white_furnace" + std::to_string(directions) + nameOf(filter) + ".dlm");
   writeDlm(folder, scene, baked.uv, baked.maps, nlohmann::json::object());
   Dlm dlm = readDlm(folder);
   std::filesystem::remove_all(folder);
@@ -140,8 +141,10 @@ class Gallery {
 
 /// Standard error of the highlight over that of E. Counts fall into cells independently, so that the variance of B is
 /// B·E·relativeError², of ΣBw/ΣCw with B = L·C and E = π·L thus π·ΣCw²/(ΣCw)² times that of E, relative to L.
+/// (Of shared light it is less.)
 double noiseOf(const DirectionSet& set, const Seen& seen, float exponent) {
-  const float sharpness = lobeSharpness(alphaFromPhong(exponent), set.count());
+  const DirectionFilter filter = set.triangles() != nullptr ? DirectionFilter::linear : DirectionFilter::nearest;
+  const float sharpness = lobeSharpness(alphaFromPhong(exponent), set.count(), filter);
   const Vec3f mirror = mirrorDirection(Vec3f(seen.n), Vec3f(seen.toEye));
   double sum = 0, squares = 0;
   for (int psi = 0; psi < set.count(); ++psi) {
@@ -177,12 +180,16 @@ Result judge(const ImageRgb& image, const std::vector<Question>& questions, cons
   return r;
 }
 
-class BakedFurnace : public test::GlTest, public testing::WithParamInterface<int> {};
+struct Furnace {
+  int directions;
+  DirectionFilter filter;
+};
+class BakedFurnace : public test::GlTest, public testing::WithParamInterface<Furnace> {};
 
 TEST_P(BakedFurnace, ShowsEveryCoatByItsAlbedo) {
-  const int directions = GetParam();
-  Dlm dlm = bake(whiteFurnace(directions == 14 ? 1.f : directions == 64 ? 10.f : 100.f), directions, 10'000'000);
-  const DirectionSet set(directions);
+  const auto [directions, filter] = GetParam();
+  Dlm dlm = bake(whiteFurnace(directions == 14 ? 1.f : directions == 64 ? 10.f : 100.f), directions, filter, 10'000'000);
+  const DirectionSet set(directions, filter);
   const Gallery gallery(dlm);
   ASSERT_EQ(dlm.scene.cameras.size(), 2u);
   for (const float exponent : {1.f, 10.f, 100.f}) {
@@ -202,7 +209,13 @@ TEST_P(BakedFurnace, ShowsEveryCoatByItsAlbedo) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Directions, BakedFurnace, testing::Values(14, 64, 256));
+INSTANTIATE_TEST_SUITE_P(Directions, BakedFurnace,
+                         testing::Values(Furnace{14, DirectionFilter::nearest}, Furnace{64, DirectionFilter::nearest},
+                                         Furnace{256, DirectionFilter::nearest}, Furnace{14, DirectionFilter::linear},
+                                         Furnace{64, DirectionFilter::linear}),
+                         [](const auto& furnace) {
+                           return std::to_string(furnace.param.directions) + nameOf(furnace.param.filter);
+                         });
 
 }  // namespace
 }  // namespace lucarne::baked_furnace_test

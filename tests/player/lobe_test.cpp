@@ -33,15 +33,18 @@ std::vector<Rgb> constantLight(const std::vector<LobeCell>& cells, Rgb L) {
 
 TEST(Lobe, ConstantLightGivesItsRadianceTimesTheAlbedo) {
   const Rgb L{3.f, 2.f, 1.f};
-  for (const int count : {1, 2, 14, 32, 64, 256}) {
-    const DirectionSet set(count);
+  constexpr auto kNearest = DirectionFilter::nearest, kLinear = DirectionFilter::linear;
+  for (const auto& [count, filter] : {std::pair(1, kNearest), {2, kNearest}, {14, kNearest}, {32, kNearest}, {64, kNearest},
+                                      {256, kNearest}, {4, kLinear}, {14, kLinear}, {64, kLinear}}) {
+    const DirectionSet set(count, filter);
     const auto cells = membersOf(set, {0, 0, 1});
     const auto values = constantLight(cells, L);
     for (const float exponent : {0.f, 1.f, 3.f, 10.f, 30.f, 100.f, 1e5f}) {
       for (int i = 0; i < 60; ++i) {
         const Vec3f toEye = directionAt(0.0265 * i, 2.4 * i);
         const Bsdf bsdf = coatOnly(exponent);
-        const Rgb Lo = reflectedRadiance({{0, 0, 1}, toEye, count}, bsdf, cells, values, L * std::numbers::pi_v<float>);
+        const Rgb Lo = reflectedRadiance({{0, 0, 1}, toEye, count, LobeKind::cell, filter}, bsdf, cells, values,
+                                         L * std::numbers::pi_v<float>);
         const Rgb expected = L * Coat(bsdf).albedo(toEye.z).total;
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lo[c], expected[c], 1e-4f * expected[c]);
       }

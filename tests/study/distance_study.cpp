@@ -3,9 +3,10 @@
 //   distance_study [--scene SCENE.glb] [--environment SKY] [--photons N] [--density D] [--directions N]
 //
 // d is the length of a photon's last segment: to the lamp or surface that it comes from. Of every cell (texel, ψ) the
-// light by d is known here. An object at distance t from the texel, in the direction of the cell, shadows the light with
-// d > t, a share F(t) of the cell's. A player that knows one distance D of the cell takes it for 1 where t < D and for 0
-// beyond. What it misjudges is |F(t) − [t < D]|, averaged over t from 0 to kFarthest, and over cells by their light, for
+// light by d is known here. An object at distance t from the texel, in the direction of the cell, shadows the light
+// with d > t, a share F(t) of the cell's. A player that knows one distance D of the cell takes it for 1 where t < D and
+// for 0 beyond. What it misjudges is |F(t) − [t < D]|, averaged over t from 0 to kFarthest, and over cells by their
+// light, for
 //   none      D infinite: nothing is known
 //   kept      1/D = Σ(β/d)/Σβ, the tally in question
 //   scene     D the distance to the scene's own surface along the mean direction of the cell's light
@@ -24,7 +25,7 @@
 namespace lucarne {
 namespace {
 
-constexpr double kFarthest = 3;           // metres that an object may be away
+constexpr double kFarthest = 3;             // metres that an object may be away
 constexpr std::size_t kFewestPhotons = 12;  // of a cell that can say something of its spread
 
 struct Arrival {
@@ -71,7 +72,8 @@ struct ArrivalSink {
     const std::uint64_t rank = side.rank[static_cast<std::size_t>(set.nearest(h.wi))];
     const Vec3f from = RayCaster::leave(h.hit.position, h.n, h.hit.clearance);
     arrivals.push_back({side.firstLight + rank * side.texelCount + static_cast<std::uint64_t>(y * side.width + x),
-                        luminance(h.beta), static_cast<float>(distances.nearness(from, h.wi, h.hit.triangle)), h.wi, from});
+                        luminance(h.beta), static_cast<float>(distances.nearness(from, h.wi, h.hit.triangle)), h.wi,
+                        from});
   }
   void endPhoton() {}
 };
@@ -124,7 +126,8 @@ void addCell(std::span<const Arrival> cell, const Distances& distances, Sums& su
   const double own = distances.nearness(cell[cell.size() / 2].leave, direction, kNone);
   const auto judge = [&](double D) { return misjudged(byDistance, light, D) * light; };
   double best = std::min(judge(0), judge(1e30));
-  for (std::size_t i = 0; i < byDistance.size(); i += byDistance.size() / 16 + 1) best = std::min(best, judge(byDistance[i].first));
+  for (std::size_t i = 0; i < byDistance.size(); i += byDistance.size() / 16 + 1)
+    best = std::min(best, judge(byDistance[i].first));
   sums.none += judge(1e30);
   sums.kept += judge(nearness > 0 ? 1 / nearness : 1e30);
   sums.scene += judge(own > 0 ? 1 / own : 1e30);
@@ -151,7 +154,8 @@ Sums study(const PhotonScene& scene, const BakeOptions& o, std::uint64_t& entrie
   ArrivalSink sink{map, plan.directions, distances, arrivals};
   Ledger ledger;
   flyPhotons(scene, {0, o.photons}, runOptions(o).seed, {}, sink, ledger);
-  std::stable_sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) { return a.cell < b.cell; });
+  std::stable_sort(arrivals.begin(), arrivals.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.cell < b.cell; });
   Sums sums;
   for (std::size_t i = 0; i < arrivals.size();) {
     std::size_t end = i;
@@ -178,8 +182,8 @@ int run(int argc, char** argv) {
   const std::unique_ptr<Environment> sky = makeEnvironment(loadSky(options), options);
   PhotonScene photonScene(packed.scene, {}, sky.get());
   prepareEmission(photonScene, options);
-  std::printf("%10s %10s | %9s %9s %9s %8s | %8s %8s %8s %8s\n", "directions", "entries", "spread 25", "50", "75 %", "too few",
-              "none", "kept", "scene", "best");
+  std::printf("%10s %10s | %9s %9s %9s %8s | %8s %8s %8s %8s\n", "directions", "entries", "spread 25", "50", "75 %",
+              "too few", "none", "kept", "scene", "best");
   for (const int directions : {14, 32, 64, 256}) {
     options.directions = directions;
     options.chooseDirections = false;
@@ -187,9 +191,9 @@ int run(int argc, char** argv) {
     Sums s = study(photonScene, options, entries);
     const double known = s.light - s.tooFew;
     std::printf("%10d %10llu | %8.0f%% %8.0f%% %8.0f%% %7.0f%% | %7.1f%% %7.1f%% %7.1f%% %7.1f%%\n", directions,
-                static_cast<unsigned long long>(entries), 100 * quantile(s.spreads, 0.25), 100 * quantile(s.spreads, 0.5),
-                100 * quantile(s.spreads, 0.75), 100 * s.tooFew / s.light, 100 * s.none / known, 100 * s.kept / known,
-                100 * s.scene / known, 100 * s.best / known);
+                static_cast<unsigned long long>(entries), 100 * quantile(s.spreads, 0.25),
+                100 * quantile(s.spreads, 0.5), 100 * quantile(s.spreads, 0.75), 100 * s.tooFew / s.light,
+                100 * s.none / known, 100 * s.kept / known, 100 * s.scene / known, 100 * s.best / known);
     std::fflush(stdout);
   }
   return 0;

@@ -2,19 +2,19 @@
 //
 //   resolution_study [--scene SCENE.glb] [--environment SKY] [--photons N] [--density D] [--directions N] [--truth K]
 //
-// Photons are counted on texels `kFine` times as fine as the maps in question, four times: twice N photons, and twice K·N
-// for the truth. Every way of cutting the rectangle of a chart into texels is then a matter of adding fine ones up; each
-// map is smoothed by a pyramid of 1.5 of its own texels, as `bake --kernel pyramid` does, and read bilinearly at every
-// fine texel.
+// Photons are counted on texels `kFine` times as fine as the maps in question, four times: twice N photons, and twice
+// K·N for the truth. Every way of cutting the rectangle of a chart into texels is then a matter of adding fine ones up;
+// each map is smoothed by a pyramid of 1.5 of its own texels, as `bake --kernel pyramid` does, and read bilinearly at
+// every fine texel.
 //
 //   uniform s     all maps of a chart with density D·s
 //   projected s   the map of ψ with density D·s·√c, c the mean cosine of ψ's cell above the chart: c of the texels
 //
-// With maps M1, M2 of the two bakes and truths T1, T2, all four independent, (M1 − T1)(M1 − T2) is on average the squared
-// error of a map and (M1 − T1)(M2 − T2) that part of it which is bias: the noise of the truths drops out. Two sums are
-// taken over all texels and ψ of flat sides: of B itself, and of the radiance B/C that reflections show, each ψ by its
-// C = ∫cos over its cell. Both are over the same sum of T1·T2, in per cent of the root. Texels are those of maps that got
-// light: others are not stored.
+// With maps M1, M2 of the two bakes and truths T1, T2, all four independent, (M1 − T1)(M1 − T2) is on average the
+// squared error of a map and (M1 − T1)(M2 − T2) that part of it which is bias: the noise of the truths drops out. Two
+// sums are taken over all texels and ψ of flat sides: of B itself, and of the radiance B/C that reflections show, each
+// ψ by its C = ∫cos over its cell. Both are over the same sum of T1·T2, in per cent of the root. Texels are those of
+// maps that got light: others are not stored.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <numeric>
@@ -44,7 +44,8 @@ std::vector<Overlap> overlaps(int fine, int coarse) {
   for (int i = 0; i < coarse; ++i) {
     const double begin = i * step, end = std::min<double>(fine, (i + 1) * step);
     Overlap o{static_cast<int>(begin), {}};
-    for (int k = o.first; k < fine && k < end; ++k) o.shares.push_back(std::min<double>(k + 1, end) - std::max<double>(k, begin));
+    for (int k = o.first; k < fine && k < end; ++k)
+      o.shares.push_back(std::min<double>(k + 1, end) - std::max<double>(k, begin));
     all.push_back(std::move(o));
   }
   return all;
@@ -82,7 +83,8 @@ Grid smoothedAlong(const Grid& g, Size size, int dx, int dy) {
       for (const int sign : {-1, 1}) {
         const int nx = x + sign * dx, ny = y + sign * dy;
         if (nx < 0 || ny < 0 || nx >= size.width || ny >= size.height) continue;
-        out[static_cast<std::size_t>(y * size.width + x)] += kNeighbour * g[static_cast<std::size_t>(ny * size.width + nx)];
+        out[static_cast<std::size_t>(y * size.width + x)] +=
+            kNeighbour * g[static_cast<std::size_t>(ny * size.width + nx)];
       }
   return out;
 }
@@ -98,7 +100,8 @@ Grid mapOf(const Grid& tally, const Grid& area, Size fine, Size coarse) {
 
 double bilinear(const Grid& map, Size size, double x, double y) {
   const double px = std::clamp(x - 0.5, 0.0, size.width - 1.0), py = std::clamp(y - 0.5, 0.0, size.height - 1.0);
-  const int x0 = std::min(static_cast<int>(px), std::max(0, size.width - 2)), y0 = std::min(static_cast<int>(py), std::max(0, size.height - 2));
+  const int x0 = std::min(static_cast<int>(px), std::max(0, size.width - 2)),
+            y0 = std::min(static_cast<int>(py), std::max(0, size.height - 2));
   const int x1 = std::min(x0 + 1, size.width - 1), y1 = std::min(y0 + 1, size.height - 1);
   const double fx = px - x0, fy = py - y0;
   const auto at = [&](int i, int j) { return map[static_cast<std::size_t>(j * size.width + i)]; };
@@ -121,7 +124,9 @@ struct FineMap {
   std::array<Grid, 2> bakes, truths;
   const Grid& area;
   double meanCosine, cosIntegral;
-  bool lit() const { return std::any_of(bakes[0].begin(), bakes[0].end(), [](double v) { return v > 0; }); }
+  bool lit() const {
+    return std::any_of(bakes[0].begin(), bakes[0].end(), [](double v) { return v > 0; });
+  }
 };
 
 Size coarseSize(const Way& way, const FineMap& map) {
@@ -134,7 +139,8 @@ void addMap(const FineMap& map, Way& way) {
   const Size coarse = coarseSize(way, map);
   if (map.lit()) way.texels += coarse.texels();
   const Grid m1 = mapOf(map.bakes[0], map.area, map.size, coarse), m2 = mapOf(map.bakes[1], map.area, map.size, coarse);
-  const double sx = static_cast<double>(coarse.width) / map.size.width, sy = static_cast<double>(coarse.height) / map.size.height;
+  const double sx = static_cast<double>(coarse.width) / map.size.width,
+               sy = static_cast<double>(coarse.height) / map.size.height;
   double error = 0, bias = 0, power = 0;
   for (int y = 0; y < map.size.height; ++y) {
     for (int x = 0; x < map.size.width; ++x) {
@@ -142,7 +148,8 @@ void addMap(const FineMap& map, Way& way) {
       const double area = map.area[i];
       if (!(area > 0)) continue;
       const double t1 = map.truths[0][i] / area, t2 = map.truths[1][i] / area;
-      const double v1 = bilinear(m1, coarse, (x + 0.5) * sx, (y + 0.5) * sy), v2 = bilinear(m2, coarse, (x + 0.5) * sx, (y + 0.5) * sy);
+      const double v1 = bilinear(m1, coarse, (x + 0.5) * sx, (y + 0.5) * sy),
+                   v2 = bilinear(m2, coarse, (x + 0.5) * sx, (y + 0.5) * sy);
       error += area * ((v1 - t1) * (v1 - t2) + (v2 - t1) * (v2 - t2)) / 2;
       bias += area * ((v1 - t1) * (v2 - t2) + (v2 - t1) * (v1 - t2)) / 2;
       power += area * t1 * t2;
@@ -157,7 +164,8 @@ void addMap(const FineMap& map, Way& way) {
   if (map.cosIntegral > 0) add(way.radiance, 1 / map.cosIntegral);
 }
 
-std::unique_ptr<Tallies> countedIn(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& o, IndexRange range) {
+std::unique_ptr<Tallies> countedIn(const PhotonScene& scene, const BakePlan& plan, const BakeOptions& o,
+                                   IndexRange range) {
   auto tallies = std::make_unique<Tallies>(plan.tallies);
   const TexelMap map(scene.scene(), plan.charts, plan.layout, plan.tallies);
   Ledger ledger;
@@ -168,9 +176,12 @@ std::unique_ptr<Tallies> countedIn(const PhotonScene& scene, const BakePlan& pla
 
 Grid gridOf(const Tallies& tallies, const TallySide& side, std::uint64_t rank, double photons) {
   Grid g;
-  const auto units = tallies.light().subspan((side.firstLight + rank * side.texelCount()) * kLightChannels, side.texelCount() * kLightChannels);
+  const auto units = tallies.light().subspan((side.firstLight + rank * side.texelCount()) * kLightChannels,
+                                             side.texelCount() * kLightChannels);
   for (std::size_t i = 0; i < units.size(); i += kLightChannels)
-    g.push_back(luminance(Rgbd{static_cast<double>(units[i]), static_cast<double>(units[i + 1]), static_cast<double>(units[i + 2])}) / photons);
+    g.push_back(luminance(Rgbd{static_cast<double>(units[i]), static_cast<double>(units[i + 1]),
+                               static_cast<double>(units[i + 2])}) /
+                photons);
   return g;
 }
 
@@ -191,12 +202,13 @@ void addSides(const BakePlan& plan, const Bakes& bakes, std::vector<Way>& ways) 
     const Vec3d n = chart.normal * (side.back ? -1.0 : 1.0);
     for (std::uint64_t k = 0; k < members.members.size(); ++k) {
       const ClippedCell cell = plan.directions.clippedCell(members.members[k], n);
-      const FineMap map{{side.width, side.height},
-                        {gridOf(*bakes.few[0], side, k, bakes.fewPhotons), gridOf(*bakes.few[1], side, k, bakes.fewPhotons)},
-                        {gridOf(*bakes.many[0], side, k, bakes.manyPhotons), gridOf(*bakes.many[1], side, k, bakes.manyPhotons)},
-                        area,
-                        cell.meanCosine(),
-                        cell.cosIntegral};
+      const FineMap map{
+          {side.width, side.height},
+          {gridOf(*bakes.few[0], side, k, bakes.fewPhotons), gridOf(*bakes.few[1], side, k, bakes.fewPhotons)},
+          {gridOf(*bakes.many[0], side, k, bakes.manyPhotons), gridOf(*bakes.many[1], side, k, bakes.manyPhotons)},
+          area,
+          cell.meanCosine(),
+          cell.cosIntegral};
       for (Way& way : ways) addMap(map, way);
     }
   }
@@ -220,11 +232,14 @@ double projectedError(const std::vector<Way>& ways, std::uint64_t texels, Way::S
 }
 
 void report(const std::vector<Way>& ways) {
-  std::printf("%-18s %9s | %8s %8s %8s | %10s %8s %8s\n", "way", "texels", "B: error", "noise", "bias", "B/C: error", "noise", "bias");
+  std::printf("%-18s %9s | %8s %8s %8s | %10s %8s %8s\n", "way", "texels", "B: error", "noise", "bias", "B/C: error",
+              "noise", "bias");
   for (const Way& w : ways) {
-    std::printf("%-10s %7.3f %9llu", w.projected ? "projected" : "uniform", w.scale, static_cast<unsigned long long>(w.texels));
+    std::printf("%-10s %7.3f %9llu", w.projected ? "projected" : "uniform", w.scale,
+                static_cast<unsigned long long>(w.texels));
     for (const Way::Sums* s : {&w.light, &w.radiance})
-      std::printf(" | %7.2f%% %7.2f%% %7.2f%%", percent(s->error, *s), percent(s->error - s->bias, *s), percent(s->bias, *s));
+      std::printf(" | %7.2f%% %7.2f%% %7.2f%%", percent(s->error, *s), percent(s->error - s->bias, *s),
+                  percent(s->bias, *s));
     std::printf("\n");
   }
   for (const Way& w : ways)
@@ -260,13 +275,16 @@ int run(int argc, char** argv) {
   const std::uint64_t few = options.photons, many = truth * few;
   Bakes bakes{{}, {}, static_cast<double>(few), static_cast<double>(many)};
   std::uint64_t begin = 0;
-  for (std::size_t i = 0; i < 2; ++i) bakes.few[i] = countedIn(photonScene, plan, options, {begin, begin + few}), begin += few;
-  for (std::size_t i = 0; i < 2; ++i) bakes.many[i] = countedIn(photonScene, plan, options, {begin, begin + many}), begin += many;
+  for (std::size_t i = 0; i < 2; ++i)
+    bakes.few[i] = countedIn(photonScene, plan, options, {begin, begin + few}), begin += few;
+  for (std::size_t i = 0; i < 2; ++i)
+    bakes.many[i] = countedIn(photonScene, plan, options, {begin, begin + many}), begin += many;
   std::vector<Way> ways;
   for (const double scale : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4}) ways.push_back({false, scale});
   for (const double scale : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.6, 1.8}) ways.push_back({true, scale});
   addSides(plan, bakes, ways);
-  std::printf("%d directions, %.3g photons, texels of %.3g /m\n", options.directions, static_cast<double>(few), plan.layout.texelsPerMetre / kFine);
+  std::printf("%d directions, %.3g photons, texels of %.3g /m\n", options.directions, static_cast<double>(few),
+              plan.layout.texelsPerMetre / kFine);
   report(ways);
   return 0;
 }
