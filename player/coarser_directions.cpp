@@ -44,7 +44,7 @@ LightMaps withFewerDirections(const LightMaps& maps, int directionCount) {
   std::vector<std::uint16_t> coarseOf;
   for (const Vec3d& d : fine.directions()) coarseOf.push_back(static_cast<std::uint16_t>(coarse.nearest(Vec3f(d))));
   LightMaps out;
-  out.directionCount = directionCount;
+  out.directionCount = directionCount;  // and the filter is `nearest`: shares of the fine set go into coarse cells
   out.charts = maps.charts;
   out.sides = maps.sides;
   out.atlasWidth = maps.atlasWidth;
