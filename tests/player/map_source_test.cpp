@@ -10,7 +10,7 @@
 #include "tests/player/gl_available.h"
 #include "tests/support/scene_builder.h"
 
-namespace lucarne {
+namespace lucarne::map_source_test {
 namespace {
 
 void ignore(const std::string&, double) {}
@@ -106,4 +106,4 @@ TEST_F(DlmShown, ADamagedFileIsRefused) {
 }
 
 }  // namespace
-}  // namespace lucarne
+}  // namespace lucarne::map_source_test
