@@ -314,8 +314,9 @@ class Session {
     window_.swap();
   }
 
-  /// The last passes of a frame, compiled before there is one, one after the other.
+  /// The last passes of a frame, compiled before there is one, one after the other; the window's first frame has enough to do.
   void warmUpDisplay(Window::Size size, int pass) {
+    if (pass == 2) return;
     const FrameTarget small(17, 17, false);
     if (pass == 1) {
       display_.meter(small, ViewScale::light);
@@ -412,7 +413,7 @@ class Session {
   ViewKind meteredView_ = ViewKind::full;
   bool targetIsExact_ = false, help_ = false;
   std::size_t warmedUp_ = 0;  // steps of pending_
-  int warmDisplay_ = 2;       // calls of warmUpDisplay() to come
+  int warmDisplay_ = 3;       // calls of warmUpDisplay() to come
   std::string note_, failure_;
   Benchmark benchmark_;
   std::unique_ptr<SceneLoader> loader_;  // last: it ends before what it shares
