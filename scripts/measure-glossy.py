@@ -129,17 +129,18 @@ def turns(study, exponent, options):
 
     for directions in options.directions.split(","):
         ways = ways_of(options)
-        bake, frame = {w: [] for w in ways}, {w: [] for w in ways}
+        bake, frame = {w: [] for w in ways}, {w: {"long": [], "short": []} for w in ways}
         for _ in range(options.turns):
             for way in ways:
                 again = study.base(exponent, directions, way) + "-again"
                 bake[way].append(study.seconds(*study.arguments(scene, again, directions, way)))
             for way in ways:
-                base = study.base(exponent, directions, way)
-                frame[way].append(frames(base, "long") - frames(base, "short"))
+                for name, all in frame[way].items():
+                    all.append(frames(study.base(exponent, directions, way), name))
+        twenty = {w: min(frame[w]["long"]) - min(frame[w]["short"]) for w in ways}
         for way in ways:
             print(f"| {directions} | {way[0]} | {way[1]} | {min(bake[way]) / min(bake[ways[0]]):.2f} | "
-                  f"{min(frame[way]) / min(frame[ways[0]]):.2f} |", flush=True)
+                  f"{twenty[way] / twenty[ways[0]]:.2f} |", flush=True)
 
 
 def table(study, exponent, options):
