@@ -125,7 +125,7 @@ void DirectionalFile::readPages(const std::filesystem::path& path, const KindOf&
     use.begin();
     std::vector<ExrWish> wishes;
     for (std::size_t i = 0; i < heads.size(); ++i) wishes.push_back(byLayer[i].empty() ? ExrWish{} : wishFor(kinds[i], codes, byLayer[i]));
-    if (wishes.back().any()) wishes.back().endRow = heads.back().height;  // so that a file that is cut short is noticed
+    if (!wishes.empty() && wishes.back().any()) wishes.back().endRow = heads.back().height;  // so that a file that is cut short is noticed
     return wishes;
   };
   pixels.take = [&](std::size_t i, std::span<const std::byte> texels) {
