@@ -20,7 +20,7 @@
 #include "tests/support/scene_builder.h"
 #include "tracer/optics/warp.h"
 
-namespace lucarne::study {
+namespace lucarne::studies {
 namespace {
 
 // --- Ways to meet the next surface, and the path around them ---
@@ -225,7 +225,7 @@ void studyAll(std::uint64_t rounds) {
 }
 
 }  // namespace
-}  // namespace lucarne::study
+}  // namespace lucarne::studies
 
 int main(int argc, char** argv) {
   const lucarne::FlushDenormals flush;
@@ -235,5 +235,5 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: alpha_study [ROUNDS]\n");
     return 1;
   }
-  lucarne::study::studyAll(rounds);
+  lucarne::studies::studyAll(rounds);
 }

@@ -14,12 +14,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "app/bake_environment.h"
-#include "app/bake_scene.h"
-#include "app/load_scene.h"
 #include "base/error.h"
-#include "cli/layout_options.h"
 #include "dlm/deposit.h"
+#include "tests/study/study.h"
 #include "tracer/transport/any_sink.h"
 
 namespace lucarne {
@@ -168,19 +165,11 @@ Sums study(const PhotonScene& scene, const BakeOptions& o, std::uint64_t& entrie
 
 int run(int argc, char** argv) {
   CLI::App app("How well one distance a cell tells how far away its light is.", "distance_study");
-  BakeOptions options;
-  LayoutTexts texts;
-  std::string scene, environment;
-  app.add_option("--scene", scene, "a .glb or .gltf file; none: the built-in room");
-  addLayoutOptions(app, options, texts);
-  addSkyOptions(app, options, environment);
+  studies::Subject subject(app);
+  BakeOptions& options = subject.options;
   CLI11_PARSE(app, argc, argv);
-  finishLayout(options, texts);
-  finishSky(options, environment);
-  if (!scene.empty()) options.scene = scene;
-  const PackedScene packed = loadScene(options);
-  const std::unique_ptr<Environment> sky = makeEnvironment(loadSky(options), options);
-  PhotonScene photonScene(packed.scene, {}, sky.get());
+  subject.load();
+  PhotonScene photonScene(subject.packed.scene, {}, subject.sky.get());
   prepareEmission(photonScene, options);
   std::printf("%10s %10s | %9s %9s %9s %8s | %8s %8s %8s %8s\n", "directions", "entries", "spread 25", "50", "75 %",
               "too few", "none", "kept", "scene", "best");
@@ -203,10 +192,5 @@ int run(int argc, char** argv) {
 }  // namespace lucarne
 
 int main(int argc, char** argv) {
-  try {
-    return lucarne::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "distance_study: %s\n", e.what());
-    return 1;
-  }
+  return lucarne::studies::runStudy("distance_study", [&] { return lucarne::run(argc, argv); });
 }

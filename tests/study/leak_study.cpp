@@ -21,7 +21,7 @@
 #include "tests/support/smooth_sphere.h"
 #include "tests/support/textures.h"
 
-namespace lucarne::study {
+namespace lucarne::studies {
 namespace {
 
 using test::SceneBuilder;
@@ -299,10 +299,10 @@ Case unwritten() {
 }
 
 }  // namespace
-}  // namespace lucarne::study
+}  // namespace lucarne::studies
 
 int main(int argc, char** argv) {
-  using namespace lucarne::study;
+  using namespace lucarne::studies;
   const std::uint64_t photons = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 4'000'000;
   std::vector<Case> cases = {sealedBox()};
   for (Case& c : walls()) cases.push_back(std::move(c));

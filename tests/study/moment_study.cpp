@@ -9,15 +9,12 @@
 #include <cstdio>
 #include <numeric>
 
-#include "app/bake_environment.h"
-#include "app/bake_scene.h"
-#include "app/load_scene.h"
 #include "base/error.h"
 #include "base/units.h"
-#include "cli/layout_options.h"
 #include "dlm/deposit.h"
 #include "dlm/lobe_width.h"
 #include "player/cell_tables.h"
+#include "tests/study/study.h"
 #include "tracer/optics/phong.h"
 #include "tracer/transport/any_sink.h"
 
@@ -144,7 +141,8 @@ void compare(const Patch& patch, const DirectionSet& set, double exponent, bool 
       byCell += cells[k].light * w;
       constant += static_cast<double>(shape[k].cosIntegral) * w;
       for (std::size_t b = 0; b < kBounds.size(); ++b) {
-        even[b] += static_cast<double>(means[k].cosIntegral) * meanDensity(Vec3d(means[k].direction), lobe, wide, kBounds[b], r);
+        even[b] += static_cast<double>(means[k].cosIntegral) *
+                   meanDensity(Vec3d(means[k].direction), lobe, wide, kBounds[b], r);
         if (cells[k].light > 0)
           light[b] += cells[k].light * meanDensity(cells[k].moment / cells[k].light, lobe, wide, kBounds[b], r);
       }
@@ -169,7 +167,8 @@ std::vector<Patch> choosePatches(const std::vector<Sample>& seen, const std::vec
   std::vector<Patch> all;
   for (std::size_t i = 0; i < seen.size();) {
     const std::span<const Sample> own = ofTexel(seen, seen[i].texel);
-    if (own.size() >= kLeast) all.push_back({own, ofTexel(truth, seen[i].texel), truthScale, normalize(Vec3d(own[0].n))});
+    if (own.size() >= kLeast)
+      all.push_back({own, ofTexel(truth, seen[i].texel), truthScale, normalize(Vec3d(own[0].n))});
     i += own.size();
   }
   std::vector<Patch> chosen;
@@ -179,32 +178,24 @@ std::vector<Patch> choosePatches(const std::vector<Sample>& seen, const std::vec
 
 int run(int argc, char** argv) {
   CLI::App app("What mean directions are worth to highlights.", "moment_study");
-  BakeOptions options;
-  LayoutTexts texts;
-  std::string scene, environment;
   std::size_t patches = 200;
-  app.add_option("--scene", scene, "a .glb or .gltf file; none: the built-in room");
-  addLayoutOptions(app, options, texts);
-  addSkyOptions(app, options, environment);
+  studies::Subject subject(app);
+  BakeOptions& options = subject.options;
   app.add_option("--patches", patches)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  finishLayout(options, texts);
-  finishSky(options, environment);
-  if (!scene.empty()) options.scene = scene;
-  const PackedScene packed = loadScene(options);
-  const std::unique_ptr<Environment> sky = makeEnvironment(loadSky(options), options);
-  const PhotonScene photonScene(packed.scene, {}, sky.get());
-  const BakePlan plan = makePlan(packed.scene, options);
+  subject.load();
+  const PhotonScene photonScene(subject.packed.scene, {}, subject.sky.get());
+  const BakePlan plan = makePlan(subject.packed.scene, options);
   constexpr std::uint64_t kMore = 4;
   const auto seen = samplesOf(photonScene, plan, options, {0, options.photons});
   const auto truth = samplesOf(photonScene, plan, options, {options.photons, (1 + kMore) * options.photons});
   const std::vector<Patch> chosen = choosePatches(seen, truth, patches, 1.0 / kMore);
   double photons = 0;
   for (const Patch& p : chosen) photons += static_cast<double>(p.seen.size());
-  std::printf("%zu patches of %.0f photons each; means bounded to 2, 4, 8 cells' sharpness, and not bounded\n", chosen.size(),
-              photons / static_cast<double>(chosen.size()));
-  std::printf("%8s %6s | %10s %9s %9s %9s %9s | %9s %9s %9s %9s %9s %9s\n", "exponent", "cells", "same: cell", "2", "4", "8",
-              "none", "new: cell", "2", "4", "8", "none", "photons");
+  std::printf("%zu patches of %.0f photons each; means bounded to 2, 4, 8 cells' sharpness, and not bounded\n",
+              chosen.size(), photons / static_cast<double>(chosen.size()));
+  std::printf("%8s %6s | %10s %9s %9s %9s %9s | %9s %9s %9s %9s %9s %9s\n", "exponent", "cells", "same: cell", "2", "4",
+              "8", "none", "new: cell", "2", "4", "8", "none", "photons");
   const std::vector<Vec3d> points = spiral(kQuadrature);
   for (const float exponent : kExponents) {
     for (const int size : kSizes) {
@@ -233,10 +224,5 @@ int run(int argc, char** argv) {
 }  // namespace lucarne
 
 int main(int argc, char** argv) {
-  try {
-    return lucarne::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "moment_study: %s\n", e.what());
-    return 1;
-  }
+  return lucarne::studies::runStudy("moment_study", [&] { return lucarne::run(argc, argv); });
 }

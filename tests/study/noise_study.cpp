@@ -8,12 +8,9 @@
 #include <cstdio>
 #include <ctime>
 
-#include "app/bake_environment.h"
-#include "app/bake_scene.h"
-#include "app/load_scene.h"
 #include "base/error.h"
 #include "base/units.h"
-#include "cli/layout_options.h"
+#include "tests/study/study.h"
 
 namespace lucarne {
 namespace {
@@ -21,8 +18,8 @@ namespace {
 struct Way {
   std::string name;
   BakeOptions options;
-  double seconds = 0;                        // CPU, all seeds, pilots included
-  std::vector<std::vector<float>> lux;       // [seed][texel]
+  double seconds = 0;                   // CPU, all seeds, pilots included
+  std::vector<std::vector<float>> lux;  // [seed][texel]
 };
 
 Way wayFrom(const std::string& name, BakeOptions options) {
@@ -66,7 +63,7 @@ void bakeOnce(Way& way, const PackedScene& packed, const Environment* sky, std::
 }
 
 struct Noise {
-  double bright = 0;  // RMS error over RMS value, weighted by area: what the brightest texels have
+  double bright = 0;   // RMS error over RMS value, weighted by area: what the brightest texels have
   double typical = 0;  // root of the mean of squared relative errors of texels
 };
 
@@ -122,28 +119,20 @@ void report(const std::vector<Way>& ways, const BakePlan& plan) {
 
 int run(int argc, char** argv) {
   CLI::App app("Noise of light maps for the time they take, by ways of tracing.", "noise_study");
-  BakeOptions options;
-  LayoutTexts texts;
-  std::string scene, environment;
   std::vector<std::string> names;
   std::uint64_t seeds = 5;
-  app.add_option("--scene", scene, "a .glb or .gltf file; none: the built-in room");
-  addLayoutOptions(app, options, texts);
-  addSkyOptions(app, options, environment);
+  studies::Subject subject(app);
+  BakeOptions& options = subject.options;
   app.add_option("--seeds", seeds, "bakes of each way")->check(CLI::Range(2, 1000))->capture_default_str();
   app.add_option("WAY", names, "random, sobol, plain, guided, joined by +")->required();
   CLI11_PARSE(app, argc, argv);
-  finishLayout(options, texts);
-  finishSky(options, environment);
-  if (!scene.empty()) options.scene = scene;
+  subject.load();
   options.threads = 1;
-  const PackedScene packed = loadScene(options);
-  const std::unique_ptr<Environment> sky = makeEnvironment(loadSky(options), options);
   std::vector<Way> ways;
   for (const std::string& name : names) ways.push_back(wayFrom(name, options));
   for (std::uint64_t s = 0; s < seeds; ++s)
-    for (Way& way : ways) bakeOnce(way, packed, sky.get(), 100 + s);
-  report(ways, makePlan(packed.scene, options));
+    for (Way& way : ways) bakeOnce(way, subject.packed, subject.sky.get(), 100 + s);
+  report(ways, makePlan(subject.packed.scene, options));
   return 0;
 }
 
@@ -151,10 +140,5 @@ int run(int argc, char** argv) {
 }  // namespace lucarne
 
 int main(int argc, char** argv) {
-  try {
-    return lucarne::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "noise_study: %s\n", e.what());
-    return 1;
-  }
+  return lucarne::studies::runStudy("noise_study", [&] { return lucarne::run(argc, argv); });
 }

@@ -19,11 +19,8 @@
 #include <cstdio>
 #include <numeric>
 
-#include "app/bake_environment.h"
-#include "app/bake_scene.h"
-#include "app/load_scene.h"
 #include "base/error.h"
-#include "cli/layout_options.h"
+#include "tests/study/study.h"
 
 namespace lucarne {
 namespace {
@@ -251,27 +248,20 @@ void report(const std::vector<Way>& ways) {
 
 int run(int argc, char** argv) {
   CLI::App app("Uniform resolution of light maps, or by projected area.", "resolution_study");
-  BakeOptions options;
   LayoutTexts texts;
   texts.directions = "32";
-  std::string scene, environment;
   std::uint64_t truth = 10;
-  app.add_option("--scene", scene, "a .glb or .gltf file; none: the built-in room");
-  addLayoutOptions(app, options, texts);
-  addSkyOptions(app, options, environment);
+  studies::Subject subject(app, texts);
+  BakeOptions& options = subject.options;
   app.add_option("--truth", truth, "times the photons of a bake")->check(CLI::Range(1, 1000))->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  finishLayout(options, texts);
-  finishSky(options, environment);
-  if (!scene.empty()) options.scene = scene;
-  const PackedScene packed = loadScene(options);
-  const std::unique_ptr<Environment> sky = makeEnvironment(loadSky(options), options);
-  PhotonScene photonScene(packed.scene, {}, sky.get());
-  settleDirections(packed.scene, options);
+  subject.load();
+  PhotonScene photonScene(subject.packed.scene, {}, subject.sky.get());
+  settleDirections(subject.packed.scene, options);
   prepareEmission(photonScene, options);
   options.texelsPerMetre *= kFine;
   options.texelBudget *= kFine * kFine;
-  const BakePlan plan = makePlan(packed.scene, options);
+  const BakePlan plan = makePlan(subject.packed.scene, options);
   const std::uint64_t few = options.photons, many = truth * few;
   Bakes bakes{{}, {}, static_cast<double>(few), static_cast<double>(many)};
   std::uint64_t begin = 0;
@@ -293,10 +283,5 @@ int run(int argc, char** argv) {
 }  // namespace lucarne
 
 int main(int argc, char** argv) {
-  try {
-    return lucarne::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "resolution_study: %s\n", e.what());
-    return 1;
-  }
+  return lucarne::studies::runStudy("resolution_study", [&] { return lucarne::run(argc, argv); });
 }
