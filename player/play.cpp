@@ -16,13 +16,12 @@
 #include "dlm/dlm_reader.h"
 #include "player/display_pass.h"
 #include "player/eye_adaptation.h"
-#include "player/folder_watch.h"
 #include "player/gpu_timer.h"
 #include "player/look_tools.h"
 #include "player/overlay.h"
 #include "player/read_back.h"
 #include "player/render_scale.h"
-#include "player/scene_loader.h"
+#include "player/scene_switch.h"
 #include "player/walk_control.h"
 #include "player/window.h"
 
@@ -32,9 +31,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr float kStopPerKey = 0.5f;
-constexpr double kLookInterval = 0.5, kNoteSeconds = 5;             // seconds
-constexpr double kMinimisedWait = 0.1, kLoadingWait = 1.0 / 30;      // seconds between frames with nothing to draw
-constexpr double kWarmUpSeconds = 0.05;                              // a frame
+constexpr double kNoteSeconds = 5;
+constexpr double kMinimisedWait = 0.1, kLoadingWait = 1.0 / 30;  // seconds between frames with nothing to draw
 
 double secondsBetween(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
@@ -43,8 +41,6 @@ class Session {
   Session(const std::filesystem::path& dlm, const PlayOptions& options, std::optional<WalkPath> path)
       : options_(options),
         path_(std::move(path)),
-        request_{dlm, options.camera, options.render.format, options.render.lobe,
-                 options.render.renderer, options.render.view, options.render.gpuMemory},
         window_(options.render.width, options.render.height, options.title),
         overlay_(window_.handle()),
         driver_(driverName()),
@@ -52,10 +48,12 @@ class Session {
         scale_(options.renderScale > 0 ? std::clamp(options.renderScale, 0.1, 1.0) : 1, !(options.renderScale > 0) && !isBenchmark()),
         kind_(options.render.renderer),
         look_(options.look),
-        watch_(dlm) {
+        next_(window_,
+              {dlm, options.camera, options.render.format, options.render.lobe, kind_, look_.view, options.render.gpuMemory},
+              options.watch) {
     if (isBenchmark()) window_.setVsync(false);
     benchmark_.pathFps = options.fps;
-    startLoading();
+    next_.begin(kind_, look_);
   }
 
   PlayReport run() {
@@ -78,10 +76,10 @@ class Session {
     Clock::time_point last = Clock::now();
     double step = 0;
     while (!window_.closing()) {
-      window_.poll(window_.isMinimised() ? kMinimisedWait : shown_ || pending_ ? 0 : kLoadingWait);
+      window_.poll(window_.isMinimised() ? kMinimisedWait : shown_ || !next_.isLoading() ? 0 : kLoadingWait);
       if (options_.ended && options_.ended()) window_.close();
       handleKeys();
-      keepLoaded();
+      followLoading();
       const WalkInput input = window_.takeWalk();
       if (control_) move(step, input);
       drawFrame(step);
@@ -93,57 +91,17 @@ class Session {
     }
   }
 
-  void startLoading() {
-    request_.renderer = kind_;
-    request_.view = look().view;
-    request_.lobe = look().lobe;
-    loader_ = std::make_unique<SceneLoader>(window_, request_);
-    watch_.forget();
+  void followLoading() {
+    next_.step(kind_, look(), !shown_);
+    if (next_.isWarm()) target(window_.framebufferSize());  // its memory, too, is new
+    if (std::unique_ptr<ShownScene> scene = next_.take()) show(std::move(scene));
   }
 
-  void keepLoaded() {
-    if (loader_ && loader_->isDone()) takeLoaded();
-    if (pending_) warmUp();
-    const Clock::time_point now = Clock::now();
-    if (!options_.watch || loader_ || pending_ || secondsBetween(lookedAt_, now) < kLookInterval) return;
-    lookedAt_ = now;
-    if (watch_.changed()) startLoading();
-  }
-
-  /// The first scene must load; a later one that does not leaves the one before.
-  void takeLoaded() {
-    const std::unique_ptr<SceneLoader> loader = std::move(loader_);
-    try {
-      pending_ = loader->take();
-      warmedUp_ = 0;
-      failure_.clear();
-    } catch (const Error& error) {
-      if (!shown_) throw;
-      failure_ = std::string("not reloaded: ") + error.what();
-      logWarning(failure_);
-    }
-  }
-
-  /// What the driver compiles for the window alone, a little a frame; then the scene is shown.
-  void warmUp() {
-    const Clock::time_point start = Clock::now();
-    FrameRenderer& renderer = pending_->renderer;
-    if (warmedUp_ == renderer.warmUpSteps()) {
-      showPending();
-      return;
-    }
-    while (warmedUp_ < renderer.warmUpSteps() && secondsBetween(start, Clock::now()) < kWarmUpSeconds) {
-      renderer.warmUp(kind_, look().view, warmedUp_++);
-      glFinish();
-    }
-    if (warmedUp_ == renderer.warmUpSteps()) target(window_.framebufferSize());  // its memory, too, is new
-  }
-
-  void showPending() {
+  void show(std::unique_ptr<ShownScene> scene) {
     if (tools_) look_ = tools_->settings;
     tools_.reset();
     const bool first = !shown_;
-    shown_ = std::move(pending_);
+    shown_ = std::move(scene);
     if (!first) releaseFreedMemory();
     takeUpLook();
     eye_ = {};  // other maps are exposed as they should be at once
@@ -187,9 +145,8 @@ class Session {
     noteSeconds_ = kNoteSeconds;
   }
   std::string note() const {
-    if (loader_) return loader_->progress();
-    if (pending_) return "compiling the shaders";
-    return noteSeconds_ > 0 && !note_.empty() ? note_ : failure_;
+    if (next_.isBusy()) return next_.progress();
+    return noteSeconds_ > 0 && !note_.empty() ? note_ : next_.failure();
   }
 
   void handleKeys() {
@@ -218,7 +175,7 @@ class Session {
           help_ = !help_;
           break;
         case WalkKey::reload:
-          if (!loader_ && !pending_) startLoading();
+          if (!next_.isBusy()) next_.begin(kind_, look());
           break;
         default:
           pressForWalk(key);
@@ -392,7 +349,6 @@ class Session {
   const Clock::time_point start_ = Clock::now();
   const PlayOptions& options_;
   std::optional<WalkPath> path_;  // to be replayed
-  SceneRequest request_;
   Window window_;  // before all that needs its context
   DisplayPass display_;
   Overlay overlay_;
@@ -401,9 +357,7 @@ class Session {
   RenderScale scale_;
   RendererKind kind_;
   LookSettings look_;  // before and between scenes; else that of the tools
-  FolderWatch watch_;
-  Clock::time_point lookedAt_{};
-  std::unique_ptr<ShownScene> shown_, pending_;  // pending: loaded, but not yet to be drawn
+  std::unique_ptr<ShownScene> shown_;
   std::unique_ptr<LookTools> tools_;  // of shown_
   std::unique_ptr<WalkControl> control_;
   std::unique_ptr<FrameTarget> target_;
@@ -412,11 +366,10 @@ class Session {
   double seconds_ = 0, smoothedStep_ = 0, noteSeconds_ = 0;
   ViewKind meteredView_ = ViewKind::full;
   bool targetIsExact_ = false, help_ = false;
-  std::size_t warmedUp_ = 0;  // steps of pending_
-  int warmDisplay_ = 3;       // calls of warmUpDisplay() to come
-  std::string note_, failure_;
+  int warmDisplay_ = 3;  // calls of warmUpDisplay() to come
+  std::string note_;
   Benchmark benchmark_;
-  std::unique_ptr<SceneLoader> loader_;  // last: it ends before what it shares
+  SceneSwitch next_;  // last: its loader ends before what it shares
 };
 
 }  // namespace
