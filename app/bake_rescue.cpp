@@ -61,9 +61,9 @@ std::string rescueState(const BakeSetup& setup, const BakeState& state, Checkpoi
   for (;;) {
     if (const auto saved = tryPlaces(setup, state, folder)) return *saved;
     if (setup.control.stop() || std::chrono::steady_clock::now() >= end) break;
-    if (!std::exchange(told, true))
-      logWarning("neither the result nor the state of " + photonsOf(state) +
-                 " can be written anywhere: trying again for an hour; make room, or end it with a signal");
+    if (!std::exchange(told, true))  // also with --quiet: only its reader can help
+      logError("neither the result nor the state of " + photonsOf(state) +
+               " can be written anywhere: trying again for an hour; make room, or end it with a signal");
     for (auto waited = kPause - kPause; waited < kPause && !setup.control.stop(); waited += std::chrono::seconds(1))
       std::this_thread::sleep_for(std::chrono::seconds(1));
   }

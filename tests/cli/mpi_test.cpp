@@ -196,8 +196,7 @@ TEST_F(Mpi, AnErrorOfAnotherRankEndsAllWithItsMessage) {
 TEST_F(Mpi, AnErrorThatTheOthersDoNotKnowOfEndsAllWithItsMessage) {
   if (test::isSanitized()) GTEST_SKIP() << "the address sanitizer needs more memory than the limit of this test";
   // Rank 0 alone writes, and may write nothing larger than a block: it waits for room, until it is told to end.
-  const std::string line =
-      std::string("\"$LUCARNE\" bake") + kQuickScene + "--density 10 -o x.dlm --photons 100k --checkpoint 0";
+  const std::string line = bake("x.dlm", "100k") + "--checkpoint 0";
   test::Background job(folder_,
                        "env " + mpirun() + "-n 1 sh -c 'trap \"\" XFSZ; ulimit -f 1; exec " + line + "' : -n 2 " + line);
   while (job.running() && test::slurp(folder_ / "log").find("can be written anywhere") == std::string::npos)
