@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "dlm/edge_overlaps.h"
 #include "tracer/scene/scene_cleanup.h"
 
 namespace lucarne {
@@ -60,6 +61,27 @@ SideLookup lookUp(const SideMaps& side, Vec2d st) {
           {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
 }
 
+/// Part of a triangle's edge; begin > end where it is run against the triangle's sense.
+struct EdgePart {
+  std::uint32_t triangle;
+  std::uint8_t corner;  // the edge runs to the next
+  double begin, end;    // fractions of the edge
+};
+
+Segment segmentOf(const Scene& scene, const Edge& e) {
+  return {Vec3d(scene.corner(e.triangle, e.corner)), Vec3d(scene.corner(e.triangle, (e.corner + 1) % 3))};
+}
+
+Vec3d shadingNormal(const Scene& scene, const EdgePart& part, double fraction) {
+  return normalize(shadingNormal(scene, part.triangle, part.corner) * (1 - fraction) +
+                   shadingNormal(scene, part.triangle, (part.corner + 1) % 3) * fraction);
+}
+
+bool sameShading(const Scene& scene, const EdgePart& a, const EdgePart& b) {
+  return dot(shadingNormal(scene, a, a.begin), shadingNormal(scene, b, b.begin)) >= kSameNormal &&
+         dot(shadingNormal(scene, a, a.end), shadingNormal(scene, b, b.end)) >= kSameNormal;
+}
+
 class SeamFinder {
  public:
   SeamFinder(const Scene& scene, const ChartSet& charts, const TexelLayout& layout, const LightMaps& maps,
@@ -68,32 +90,51 @@ class SeamFinder {
 
   SeamSet find() {
     const std::vector<Edge> edges = sortedEdges(scene_);
+    std::vector<Edge> alone;
+    std::vector<Segment> others;
     for (std::size_t i = 0; i < edges.size();) {
       std::size_t end = i;
       while (end < edges.size() && edges[end].ends == edges[i].ends) ++end;
-      if (end - i == 2) consider(edges[i], edges[i + 1]);
+      if (end - i == 2 && edges[i].turned != edges[i + 1].turned)  // the second runs the other way
+        consider({edges[i].triangle, edges[i].corner, 0, 1}, {edges[i + 1].triangle, edges[i + 1].corner, 1, 0});
+      if (end - i == 1)
+        alone.push_back(edges[i]);
+      else
+        others.push_back(segmentOf(scene_, edges[i]));
       i = end;
     }
+    considerOverlaps(alone, others);
     return std::move(set_);
   }
 
  private:
-  void consider(const Edge& a, const Edge& b) {
-    const std::uint32_t chartA = charts_.chartOfTriangle[a.triangle], chartB = charts_.chartOfTriangle[b.triangle];
-    if (chartA == chartB || chartA == kNone || chartB == kNone || a.turned == b.turned) return;
-    for (int end = 0; end < 2; ++end) {  // b runs the other way
-      const Vec3d na = shadingNormal(scene_, a.triangle, (a.corner + end) % 3),
-                  nb = shadingNormal(scene_, b.triangle, (b.corner + 1 - end) % 3);
-      if (!(dot(na, nb) >= kSameNormal)) return;
+  /// Edges that share no ends. A normal n and the direction d that the edge is run in give the side n × d on which the
+  /// triangle lies; with d and −d, the sides are opposite where the normals are less than 90° apart.
+  void considerOverlaps(const std::vector<Edge>& alone, const std::vector<Segment>& others) {
+    std::vector<Segment> segments;
+    for (const Edge& e : alone) segments.push_back(segmentOf(scene_, e));
+    for (const EdgeOverlap& o : findEdgeOverlaps(segments, others, ChartOptions{}.weldTolerance)) {
+      const Edge &a = alone[o.a], &b = alone[o.b];
+      if (o.bBegin < o.bEnd || !(dot(scene_.scaledNormal(a.triangle), scene_.scaledNormal(b.triangle)) > 0)) continue;
+      consider({a.triangle, a.corner, o.aBegin, o.aEnd}, {b.triangle, b.corner, o.bBegin, o.bEnd});
     }
+  }
+
+  void consider(const EdgePart& a, const EdgePart& b) {
+    const std::uint32_t chartA = charts_.chartOfTriangle[a.triangle], chartB = charts_.chartOfTriangle[b.triangle];
+    if (chartA == chartB || chartA == kNone || chartB == kNone || !sameShading(scene_, a, b)) return;
     addSeam(a, b, maps_.charts[chartA].frontSide, maps_.charts[chartB].frontSide);
     addSeam(a, b, maps_.charts[chartA].backSide, maps_.charts[chartB].backSide);
   }
 
-  Vec2d texelOf(std::uint32_t triangle, int corner) const {
-    const Vec2f uv = charts_.cornerUv[triangle][static_cast<std::size_t>(corner)];
-    const Vec2d scale = layout_.charts[charts_.chartOfTriangle[triangle]].texelsPerLocal;
-    return {static_cast<double>(uv.x) * scale.x, static_cast<double>(uv.y) * scale.y};
+  Vec2d texelOf(const EdgePart& part, double fraction) const {
+    const auto& uv = charts_.cornerUv[part.triangle];
+    const Vec2f from = uv[part.corner], to = uv[(part.corner + 1u) % 3];
+    const auto at = [fraction](float x, float y) {
+      return static_cast<double>(x) * (1 - fraction) + static_cast<double>(y) * fraction;
+    };
+    const Vec2d scale = layout_.charts[charts_.chartOfTriangle[part.triangle]].texelsPerLocal;
+    return {at(from.x, to.x) * scale.x, at(from.y, to.y) * scale.y};
   }
 
   bool touched(std::uint32_t side, const SideLookup& look) const {
@@ -102,13 +143,13 @@ class SeamFinder {
                        [&](std::uint32_t t) { return contacts_[side].touched(t); });
   }
 
-  void addSeam(const Edge& a, const Edge& b, std::uint32_t sideA, std::uint32_t sideB) {
+  void addSeam(const EdgePart& a, const EdgePart& b, std::uint32_t sideA, std::uint32_t sideB) {
     if (sideA == kNone || sideB == kNone || !maps_.sides[sideA].lit || !maps_.sides[sideB].lit) return;
-    const Vec2d a0 = texelOf(a.triangle, a.corner), a1 = texelOf(a.triangle, (a.corner + 1) % 3),
-                b0 = texelOf(b.triangle, (b.corner + 1) % 3), b1 = texelOf(b.triangle, b.corner);
+    const Vec2d a0 = texelOf(a, a.begin), a1 = texelOf(a, a.end), b0 = texelOf(b, b.begin), b1 = texelOf(b, b.end);
     const double texels = std::max(std::hypot(a1.x - a0.x, a1.y - a0.y), std::hypot(b1.x - b0.x, b1.y - b0.y));
-    const double metres = scene_.frame.scale * length(Vec3d(scene_.corner(a.triangle, (a.corner + 1) % 3)) -
-                                                      Vec3d(scene_.corner(a.triangle, a.corner)));
+    const double metres = scene_.frame.scale * std::abs(a.end - a.begin) *
+                          length(Vec3d(scene_.corner(a.triangle, (a.corner + 1) % 3)) -
+                                 Vec3d(scene_.corner(a.triangle, a.corner)));
     const int n = std::max(1, static_cast<int>(std::ceil(kSamplesATexel * texels)));
     Seam seam{set_.samples.size(), 0};
     for (int i = 0; i < n; ++i) {
