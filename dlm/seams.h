@@ -3,6 +3,10 @@
 // An edge of two triangles is a seam when they are all that meet there, belong to two charts, face the same way round
 // and have the same shading normals at both of its ends (within 2°): then light on both is the same, whatever the
 // materials. Edges where a contact touches the texels (a wall on the joint of two floors) are none.
+//
+// Edges that nothing shares with its ends are seams as far as they run along each other (edge_overlaps.h, within the
+// weld tolerance of charts.h), by the same rules: one edge of a floor along the many of another, edges shifted against
+// each other.
 #pragma once
 
 #include <array>
@@ -23,14 +27,14 @@ struct SideLookup {
   std::array<double, 4> weight;        // sum 1
 };
 
-/// A place on a seam, twice a texel's length.
+/// A place on a seam: two a texel's length, one a seam at least.
 struct SeamSample {
   std::uint32_t sideA, sideB;  // of LightMaps::sides
   SideLookup a, b;
   double length;  // of the seam that it stands for, metres
 };
 
-/// An edge; its samples are numbered through.
+/// An edge, or the part of it that another runs along; its samples are numbered through.
 struct Seam {
   std::size_t first, end;
 };

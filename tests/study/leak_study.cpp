@@ -11,6 +11,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "app/bake_scene.h"
 #include "dlm/dlm_reader.h"
@@ -239,6 +240,17 @@ Case ball() {
 
 double rmsJump(Way& way) { return way.baked.seams.jumpAfter; }
 
+/// Root mean square of the jump between readings on both sides of the line x = 0.037, over their mean.
+double jumpAcrossJoint(Way& way) {
+  double difference = 0, mean = 0;
+  for (double z = -0.99; z < 1; z += 0.01) {
+    const double a = way.at({0.037 - 1e-6, 0, z}, {0, 1, 0}), b = way.at({0.037 + 1e-6, 0, z}, {0, 1, 0});
+    difference += (a - b) * (a - b);
+    mean += 0.25 * (a + b) * (a + b);
+  }
+  return std::sqrt(difference / mean);
+}
+
 Case joint() {
   const Vec3d bulb{0.2, 1, 0.1};
   SceneBuilder s;
@@ -247,6 +259,18 @@ Case joint() {
   s.addQuad({0.037, 0, 1}, {1, 0, 1}, {1, 0, -1}, {0.037, 0, -1}, b);
   s.addLight(bulbAt(bulb));
   return {"floor of two charts: RMS jump at the seam", s.build(), rmsJump};
+}
+
+/// The floor of joint(), its right part of three quads: the edge of the left runs along three of the right. Asked by
+/// places, since the figures of the seams are those of seams that were found.
+Case jointOfThree() {
+  SceneBuilder s;
+  const auto a = s.addDiffuse(Rgb(0.f)), b = s.addDiffuse(Rgb(0.1f));
+  s.addQuad({-1, 0, 1}, {0.037, 0, 1}, {0.037, 0, -1}, {-1, 0, -1}, a);
+  for (const auto& [from, to] : {std::pair{1.0, 0.43}, std::pair{0.43, -0.31}, std::pair{-0.31, -1.0}})
+    s.addQuad({0.037, 0, from}, {1, 0, from}, {1, 0, to}, {0.037, 0, to}, b);
+  s.addLight(bulbAt({0.2, 1, 0.1}));
+  return {"— one edge along three", s.build(), jumpAcrossJoint};
 }
 
 /// Furnace: 200π lx everywhere.
@@ -316,6 +340,7 @@ int main(int argc, char** argv) {
   cases.push_back(boxOnFloor("— 12 mm thick, laid into it", {-0.33, -0.003, -0.41}, {0.21, 0.009, 0.27}, false));
   cases.push_back(ball());
   cases.push_back(joint());
+  cases.push_back(jointOfThree());
   cases.push_back(alpha());
   cases.push_back(unwritten());
   std::printf("| | without | with |\n|---|---|---|\n");
