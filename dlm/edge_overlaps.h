@@ -1,5 +1,5 @@
-// Edges that run along each other without sharing their ends: T-junctions, edges shifted against each other, edges whose
-// ends were rounded differently.
+// Edges that run along each other without sharing their ends: T-junctions, edges shifted against each other, edges
+// whose ends were rounded differently.
 //
 // Every edge is cut at the ends of others that lie on it; ends nearer to each other than the tolerance are one. Two
 // edges overlap where they have a piece in common that no third edge has: what continues what is certain there only.
@@ -20,9 +20,9 @@ struct EdgeOverlap {
   double bBegin, bEnd;  // of b at the same two places: bBegin > bEnd where b runs the other way
 };
 
-/// Ordered by a, b, aBegin; pieces that follow each other on both edges are one overlap. `others`: edges that only count
-/// as third ones, of pieces whose middle they have. Points through which more than 16 edges pass cut none, so that the time is n log n however many
-/// edges lie on one line. Coordinates finite.
+/// Ordered by a, b, aBegin; pieces that follow each other on both edges are one overlap. `others`: edges that only
+/// count as third ones, of pieces whose middle they have. Points through which more than 16 edges pass cut none, so
+/// that the time is n log n however many edges lie on one line. Coordinates finite.
 std::vector<EdgeOverlap> findEdgeOverlaps(std::span<const Segment> edges, std::span<const Segment> others,
                                           double tolerance);
 

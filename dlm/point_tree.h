@@ -30,9 +30,9 @@ class PointTree {
  private:
   struct Node {
     Box box;
-    std::uint32_t begin, end;         // into order_
-    std::uint32_t child, parent;      // two children in a row; none: a leaf
-    std::uint32_t live;               // points not dropped
+    std::uint32_t begin, end;     // into order_
+    std::uint32_t child, parent;  // two children in a row; none: a leaf
+    std::uint32_t live;           // points not dropped
   };
   void split(std::uint32_t node);
 

@@ -6,8 +6,8 @@
 //
 // is least (seam optimisation: Iwanicki, "Lighting technology of The Last of Us", 2013); w is the length of seam that a
 // place stands for, in texels: ½, also where an edge is shorter. Irradiance is fitted first, then the light from each ψ
-// that both sides have maps of; these are scaled so that they still sum to the irradiance, texel by texel. What one side
-// of a seam gains the other loses, but for the difference in their texels' sizes: the change of flux is reported.
+// that both sides have maps of; these are scaled so that they still sum to the irradiance, texel by texel. What one
+// side of a seam gains the other loses, but for the difference in their texels' sizes: the change of flux is reported.
 #pragma once
 
 #include "dlm/seams.h"

@@ -147,9 +147,9 @@ class SeamFinder {
     if (sideA == kNone || sideB == kNone || !maps_.sides[sideA].lit || !maps_.sides[sideB].lit) return;
     const Vec2d a0 = texelOf(a, a.begin), a1 = texelOf(a, a.end), b0 = texelOf(b, b.begin), b1 = texelOf(b, b.end);
     const double texels = std::max(std::hypot(a1.x - a0.x, a1.y - a0.y), std::hypot(b1.x - b0.x, b1.y - b0.y));
-    const double metres = scene_.frame.scale * std::abs(a.end - a.begin) *
-                          length(Vec3d(scene_.corner(a.triangle, (a.corner + 1) % 3)) -
-                                 Vec3d(scene_.corner(a.triangle, a.corner)));
+    const double metres =
+        scene_.frame.scale * std::abs(a.end - a.begin) *
+        length(Vec3d(scene_.corner(a.triangle, (a.corner + 1) % 3)) - Vec3d(scene_.corner(a.triangle, a.corner)));
     const int n = std::max(1, static_cast<int>(std::ceil(kSamplesATexel * texels)));
     Seam seam{set_.samples.size(), 0};
     for (int i = 0; i < n; ++i) {

@@ -33,9 +33,7 @@ SceneBuilder floorOfTwo(const std::vector<double>& left, const std::vector<doubl
   return s;
 }
 
-SeamReport seamsOf(const Scene& scene) {
-  return BakedScene(scene, test::quickOptions(200'000, 11)).baked.seams;
-}
+SeamReport seamsOf(const Scene& scene) { return BakedScene(scene, test::quickOptions(200'000, 11)).baked.seams; }
 
 SeamReport seamsOf(const SceneBuilder& s) { return seamsOf(s.build()); }
 
@@ -90,9 +88,7 @@ TEST(SeamOverlaps, OfSharedEdgesAreThoseThatTheyWere) {
   EXPECT_NEAR(three.length, one.length, 1e-6);
 }
 
-TEST(SeamOverlaps, AcrossAGapOfAMillimetreAreNone) {
-  EXPECT_EQ(seamsOf(floorOfTwo(kWhole, kThirds, 0.001)).seams, 0u);
-}
+TEST(SeamOverlaps, AcrossAGapOfAMillimetreAreNone) { EXPECT_EQ(seamsOf(floorOfTwo(kWhole, kThirds, 0.001)).seams, 0u); }
 
 TEST(SeamOverlaps, AtARightAngleAreNone) {
   SceneBuilder s;

@@ -153,8 +153,8 @@ TEST(EdgeOverlaps, OfALongEdgeWithManyAreFoundInNearlyLinearTime) {
   EXPECT_LT(secondsFor(longAndShort(40'000)), 3.5 * secondsFor(edges));
 }
 
-// Each edge holds the ends of all that follow: cut at each, they would be 10⁸ pieces. Only near both ends of the longest
-// are two alone.
+// Each edge holds the ends of all that follow: cut at each, they would be 10⁸ pieces. Only near both ends of the
+// longest are two alone.
 TEST(EdgeOverlaps, OfNestedEdgesTakeNearlyLinearTime) {
   const auto nested = [](int n) {
     std::vector<Segment> edges;
