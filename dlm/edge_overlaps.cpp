@@ -148,18 +148,18 @@ class OverlapFinder {
     return length(cross(u, v)) <= 2 * tolerance_ * longer && std::min(length(u), length(v)) >= kShortest * tolerance_;
   }
 
-  /// Takes out pieces that a third edge runs along at their middle.
+  /// Takes out pieces that a third edge runs along at their middle, or that very many cross there.
   void dropThirds(std::span<const Segment> others) {
     std::vector<Vec3d> middles;
     for (const SharedPiece& p : shared_) middles.push_back(segmentOf(p).at(0.5));
     PointTree tree(middles);
     std::vector<bool> third(shared_.size(), false);
-    std::vector<std::uint32_t> found;
+    std::vector<std::uint32_t> through(shared_.size(), 0), found;
     for (const Segment& other : others) {
       found.clear();
       tree.findNear(other, tolerance_, found);
       for (const std::uint32_t p : found) {
-        if (!runAlong(other, segmentOf(shared_[p]))) continue;
+        if (++through[p] <= kMostThrough && !runAlong(other, segmentOf(shared_[p]))) continue;
         third[p] = true;
         tree.drop(p);
       }

@@ -21,8 +21,9 @@ struct EdgeOverlap {
 };
 
 /// Ordered by a, b, aBegin; pieces that follow each other on both edges are one overlap. `others`: edges that only
-/// count as third ones, of pieces whose middle they have. Points through which more than 16 edges pass cut none, so
-/// that the time is n log n however many edges lie on one line. Coordinates finite.
+/// count as third ones, of pieces whose middle they have. Points through which more than 16 edges pass cut none, and
+/// pieces through whose middle so many pass are none: the time is n log n however many edges lie on one line.
+/// Coordinates finite.
 std::vector<EdgeOverlap> findEdgeOverlaps(std::span<const Segment> edges, std::span<const Segment> others,
                                           double tolerance);
 
