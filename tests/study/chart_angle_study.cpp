@@ -3,9 +3,9 @@
 //   chart_angle_study [--scene SCENE.glb] [--environment SKY] [--photons N] [--density D] [--angles 30,40,55,70]
 //   [--truth K]
 //
-// Charts are grown with each angle (ChartOptions::maxAngleDegrees); TEXCOORD_1 is not used. What stands before the bar
-// is of the density asked for; behind it, the density is changed until there are as many texels as with the default
-// angle. That layout is baked twice, as `bake` does, and read at places spread evenly over the surface.
+// Charts are grown with each angle (ChartOptions::maxAngleDegrees); TEXCOORD_1 is not used. First at the density asked
+// for, then at one changed until there are as many texels as with the default angle, each layout is baked twice, as
+// `bake` does, and read at places spread evenly over the surface. "jump" and "fitted": those at seams (seam_fit.h).
 //
 // The truth is a bake of another seed, K times the photons, on texels kFine times as fine, of charts of 20°: none of
 // the angles has its own texels for a judge. Error of a reading m where the truth is t: (m − t) over their mean, at
@@ -127,34 +127,47 @@ class AngleStudy {
   }
 
   void run(double angle) const {
-    const Layout asked = layOut(scene_.scene(), options_, angle);
-    const auto [mean, most] = stretchOf(asked);
     BakeOptions o = options_;
-    Layout equal = asked;
-    for (int i = 0; i < 4; ++i) {
-      o.texelsPerMetre *= std::sqrt(static_cast<double>(standard_) / static_cast<double>(equal.texels.texelCount));
-      equal = layOut(scene_.scene(), o, angle);
-    }
-    const std::uint64_t texels = equal.texels.texelCount;
-    const BakePlan plan = planOf(scene_.scene(), o, std::move(equal));
-    double square = 0;
-    Baked baked;
-    for (std::uint64_t i = 0; i < 2; ++i) {
-      o.seed = options_.seed + i;
-      baked = bake(plan, o);
-      square += errorOf(readings(plan, baked.maps, places_)) / 2;
-    }
+    Layout layout = layOut(scene_.scene(), o, angle);
+    const auto [mean, most] = stretchOf(layout);
     const auto count = [](auto n) { return static_cast<unsigned long long>(n); };
-    std::printf("%5.0f %8zu %9llu %7.3f %7.2f | %9llu %9llu %8.2f%% %8.2f%% %8.2f%%\n", angle,
-                asked.charts.charts.size(), count(asked.texels.texelCount), mean, most, count(texels),
-                count(baked.maps.atlasWidth) * count(baked.maps.atlasHeight), 100 * std::sqrt(square),
-                100 * baked.seams.jumpBefore, 100 * baked.seams.jumpAfter);
+    std::printf("%5.0f %8zu %7.3f %7.2f", angle, layout.charts.charts.size(), mean, most);
+    for (const bool equal : {false, true}) {
+      for (int i = 0; equal && i < 4; ++i) {
+        o.texelsPerMetre *= std::sqrt(static_cast<double>(standard_) / static_cast<double>(layout.texels.texelCount));
+        layout = layOut(scene_.scene(), o, angle);
+      }
+      const std::uint64_t texels = layout.texels.texelCount;
+      const Judged j = judge(planOf(scene_.scene(), o, layout), o);
+      std::printf(" | %9llu %9llu %7.2f%% %7.2f%% %7.2f%%", count(texels), count(j.atlas), 100 * j.error,
+                  100 * j.seams.jumpBefore, 100 * j.seams.jumpAfter);
+    }
+    std::printf("\n");
     std::fflush(stdout);
   }
 
  private:
   Baked bake(const BakePlan& plan, const BakeOptions& o) const {
     return bakeScene(scene_, plan, o, [](const RunProgress&) { return true; });
+  }
+
+  struct Judged {
+    double error = 0;
+    std::uint64_t atlas = 0;  // texels of its pages
+    SeamReport seams;
+  };
+  Judged judge(const BakePlan& plan, BakeOptions o) const {
+    Judged j;
+    double square = 0;
+    for (std::uint64_t i = 0; i < 2; ++i) {
+      o.seed = options_.seed + i;
+      const Baked baked = bake(plan, o);
+      square += errorOf(readings(plan, baked.maps, places_)) / 2;
+      j.atlas = static_cast<std::uint64_t>(baked.maps.atlasWidth) * static_cast<std::uint64_t>(baked.maps.atlasHeight);
+      j.seams = baked.seams;
+    }
+    j.error = std::sqrt(square);
+    return j;
   }
 
   /// Mean square.
@@ -209,8 +222,10 @@ int run(int argc, char** argv) {
   settleDirections(subject.packed.scene, subject.options);
   prepareEmission(scene, subject.options);
   const AngleStudy study(scene, subject.options, truth);
-  std::printf("%-5s %8s %9s %7s %7s | %9s %9s %9s %9s %9s\n", "angle", "charts", "texels", "stretch", "most", "as many",
-              "atlas", "error", "jump", "fitted");
+  std::printf("%-5s %8s %7s %7s", "angle", "charts", "stretch", "most");
+  for (const char* texels : {"texels", "as many"})
+    std::printf(" | %9s %9s %8s %8s %8s", texels, "atlas", "error", "jump", "fitted");
+  std::printf("\n");
   for (const double angle : angles) study.run(angle);
   return 0;
 }
