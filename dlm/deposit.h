@@ -1,7 +1,8 @@
 // The sink that counts photon hits in tallies.
 //
 // A deposit is a few adds at a random place: nearly all of its cost is the miss of the cache and of the page table. So
-// deposits are held back and added a group at a time, in a loop so short that the misses of many overlap.
+// deposits are held back and added a group at a time, and memory is asked for some deposits ahead: the misses of many
+// overlap.
 #pragma once
 
 #include <array>
