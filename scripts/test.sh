@@ -6,4 +6,4 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scripts/install-dependencies.sh
 scripts/build.sh release
-ctest --preset release --parallel "$(nproc)"
+ctest --preset release --parallel "$(($(nproc) + 1))"  # some tests wait
