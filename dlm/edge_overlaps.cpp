@@ -1,6 +1,8 @@
 #include "dlm/edge_overlaps.h"
 
+#include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace lucarne {
 namespace {

@@ -1,5 +1,8 @@
 #include "dlm/point_tree.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 
 namespace lucarne {
